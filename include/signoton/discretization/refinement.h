@@ -1,0 +1,74 @@
+#ifndef signoton_discretization_refinement_h
+#define signoton_discretization_refinement_h
+
+#include <signoton/discretization/space.h>
+
+namespace Signoton
+{
+  /**
+   * Where to refine and to coarsen.
+   *
+   * The indicator of a cell is built on the jumps of the traction over its
+   * faces and on the mismatch with the given traction at the boundary,
+   * $\eta_K^2=\sum_{F\subset\partial K} c_F \frac{h_F}{2\mu}
+   *  \|[\sigma]n\|_F^2$, $c_F=\frac12$ inside (Kelly et al., Int. J. Numer.
+   * Meth. Eng. 19 (1983), in the energy scale). Cells in which the material
+   * switches its branch, or whose neighbor is in another one, count more.
+   */
+  class Refinement
+  {
+  public:
+    void
+    add_parameters(ParameterHandler &handler);
+
+    /** Cycles of solving and refining in a step, 0 for a fixed mesh. */
+    unsigned int
+    cycles(const unsigned int step) const;
+
+    /** Whether steps after the first refine. */
+    bool
+    is_used_later() const
+    {
+      return cycles_per_step > 0;
+    }
+
+    /** Squared indicators of the locally owned cells, by active cell index.
+     *  @param stress ghosted field of in-plane stresses at the points
+     *  @param shear_modulus by material id, in Pa */
+    template <int dim>
+    static Vector<float>
+    traction_jumps(const Space<dim>                        &space,
+                   const PointSpace<dim>                   &points,
+                   const VectorType                        &stress,
+                   const BoundaryConditions<dim>           &conditions,
+                   const std::map<types::material_id, double> &shear_modulus);
+
+    /**
+     * Set refinement and coarsening flags.
+     * @param indicators from traction_jumps(); weighted and rounded here, so
+     *   that the choice does not depend on round-off
+     * @param region     by active cell, see Rheology::Region
+     * @param mixed      whether points of a cell are in different regions
+     * @return whether any cell is to change
+     */
+    template <int dim>
+    bool
+    mark(Space<dim>                      &space,
+         Vector<float>                   &indicators,
+         const std::vector<unsigned int> &region,
+         const std::vector<bool>         &mixed) const;
+
+  private:
+    unsigned int cycles_per_step  = 0;
+    unsigned int cycles_first     = 0;
+    unsigned int every            = 1;
+    double       refine_fraction  = 0.5;
+    double       coarsen_fraction = 0.02;
+    double       region_weight    = 4.;
+    unsigned int maximum_level    = 8;
+    unsigned int minimum_level    = 0;
+    unsigned int maximum_unknowns = 1000000;
+  };
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,60 @@
+#ifndef signoton_drivers_checkpoint_h
+#define signoton_drivers_checkpoint_h
+
+#include <signoton/drivers/model.h>
+
+namespace Signoton
+{
+  /**
+   * The accepted state on disk: mesh, displacement, history and a few numbers,
+   * in a directory that is complete or absent, whatever happens while it is
+   * written. It can be read on any number of ranks.
+   */
+  template <int dim>
+  class Checkpoint
+  {
+  public:
+    /** @param directory where it is, or is to be */
+    Checkpoint(Model<dim> &model, const std::string &directory);
+
+    void
+    set(const std::string &name, const double value);
+
+    /** A number of a checkpoint that has been read. */
+    double
+    number(const std::string &name) const;
+
+    /** Names of all numbers that begin with @p prefix. */
+    std::vector<std::string>
+    names(const std::string &prefix) const;
+
+    /** Write the accepted state.
+     *  @param history_space nullptr if the scene has no history */
+    void
+    write(const PointSpace<dim> *history_space, const VectorType &displacement);
+
+    /** Read the numbers, and the refinement of the mesh of the scene. */
+    void
+    load_mesh();
+
+    /** Read the fields; unknowns must have been distributed on the mesh. */
+    void
+    load_fields(const PointSpace<dim> *history_space, VectorType &displacement);
+
+  private:
+    std::string
+    mesh_file(const std::string &in_directory) const;
+
+    void
+    write_numbers(const std::string &file_name) const;
+
+    void
+    read_numbers();
+
+    Model<dim>                   &model;
+    std::string                   directory;
+    std::map<std::string, double> numbers;
+  };
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,83 @@
+#ifndef signoton_drivers_model_h
+#define signoton_drivers_model_h
+
+#include <signoton/base/ledger.h>
+#include <signoton/discretization/refinement.h>
+#include <signoton/operators/mechanics.h>
+#include <signoton/solvers/newton.h>
+
+namespace Signoton
+{
+  /** What a scene asks to be written and measured. */
+  struct OutputParameters
+  {
+    void
+    add_parameters(ParameterHandler &handler);
+
+    std::string  directory        = "";
+    unsigned int fields_every     = 1;
+    unsigned int checkpoint_every = 0;
+    std::string  probe_text       = "";
+    bool         newton_history   = false;
+  };
+
+  /** The load history. */
+  struct LoadSteps
+  {
+    void
+    add_parameters(ParameterHandler &handler);
+
+    double       start             = 0.;
+    double       end               = 1.;
+    double       step_size         = 1.;
+    double       minimum_step_size = 1e-4;
+    double       maximum_step_size = 1e300;
+    unsigned int easy_iterations   = 8;
+    double       growth            = 1.;
+  };
+
+  /**
+   * Everything a scene consists of once it is built; drivers work on it.
+   */
+  template <int dim>
+  struct Model
+  {
+    explicit Model(const MPI_Comm &communicator)
+      : communicator(communicator)
+      , ledger(communicator)
+    {}
+
+    MPI_Comm                             communicator;
+    SceneFile                            file;
+    Ledger                               ledger;
+    Geometry                             geometry;
+    std::vector<Rheology::Material>      materials;
+    BoundaryConditions<dim>              conditions;
+    std::unique_ptr<FunctionParser<dim>> gravity;
+    /** An exact displacement to compare with, if the scene gives one. */
+    std::unique_ptr<FunctionParser<dim>> reference;
+    std::vector<Point<dim>>              probes;
+    LoadSteps                            load_steps;
+    Newton::Parameters                   newton;
+    LinearSolver::Parameters             linear_solver;
+    Refinement                           refinement;
+    OutputParameters                     output;
+    std::string                          resolved_scene;
+
+    std::unique_ptr<Space<dim>>     space;
+    std::unique_ptr<Mechanics<dim>> mechanics;
+
+    void
+    set_time(const double time)
+    {
+      for (auto &condition : conditions)
+        condition.set_time(time);
+      if (gravity)
+        gravity->set_time(time);
+      if (reference)
+        reference->set_time(time);
+    }
+  };
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,118 @@
+#ifndef signoton_drivers_results_h
+#define signoton_drivers_results_h
+
+#include <signoton/drivers/checkpoint.h>
+#include <signoton/drivers/model.h>
+
+#include <deal.II/base/conditional_ostream.h>
+
+namespace Signoton
+{
+  /** What is known of an accepted step. */
+  struct StepRecord
+  {
+    double              time              = 0.;
+    double              step_size         = 0.;
+    unsigned int        newton_iterations = 0; ///< of all tries and cycles
+    EnergyBalance       balance;
+    double              external_work   = 0.; ///< of the step, in J
+    double              transfer_drift  = 0.; ///< of stored energy, in J
+    double              estimated_error = 0.; ///< 0 without refinement
+    std::vector<double> reactions; ///< dim entries for each condition
+  };
+
+  /**
+   * The results of a run: the log on the screen, `statistics.csv` with a line
+   * a step, `fields.pvd` with the fields for ParaView, `ledger.json`, and
+   * `resolved.prm` which runs again to the same answer.
+   */
+  template <int dim>
+  class Results
+  {
+  public:
+    explicit Results(Model<dim> &model);
+
+    /** Open the output directory, and say what starts. */
+    void
+    start(const double time);
+
+    /** Record an accepted step. */
+    void
+    step(const VectorType   &displacement,
+         const StepRecord   &record,
+         const NewtonResult &newton,
+         const bool          is_last);
+
+    /** One line for a solve that is repeated on a finer mesh. */
+    void
+    cycle_line(const unsigned int  cycle,
+               const NewtonResult &newton,
+               const StepRecord   &record);
+
+    /** One line for a step that is cut. */
+    void
+    failed_line(const double time, const NewtonResult &newton);
+
+    /** Say that no equilibrium was found, how far it got and what to try. */
+    void
+    no_equilibrium(const double        time,
+                   const double        step_size,
+                   const NewtonResult &newton);
+
+    /** Write the ledger and the summary. */
+    void
+    finish(const VectorType &displacement, const double time);
+
+    /** Put what must survive a restart into a checkpoint, and back. */
+    void
+    save(Checkpoint<dim> &checkpoint) const;
+    void
+    resume(const Checkpoint<dim> &checkpoint);
+
+    unsigned int
+    n_accepted() const
+    {
+      return accepted_steps;
+    }
+
+    std::string
+    checkpoint_directory() const;
+
+  private:
+    void
+    open_directory();
+
+    void
+    write_fields(const VectorType &displacement, const double time);
+
+    void
+    print_newton_history(const NewtonResult &newton);
+
+    /** Errors against the reference: L2 norm, absolute and relative. */
+    std::pair<double, double>
+    reference_error(const VectorType &displacement);
+
+    std::vector<double>
+    probe_values(const VectorType &displacement);
+
+    /** Names and values of a line of the statistics. */
+    std::vector<std::pair<std::string, double>>
+    statistics_line(const VectorType   &displacement,
+                    const StepRecord   &record,
+                    const NewtonResult &newton);
+
+    void
+    append_statistics(
+      const std::vector<std::pair<std::string, double>> &line);
+
+    Model<dim>        &model;
+    ConditionalOStream screen;
+    unsigned int       accepted_steps = 0;
+    double             external_work = 0., dissipation = 0.;
+    double             start_time = 0.;
+    bool               resumed    = false;
+    std::vector<std::pair<double, std::string>> snapshots;
+  };
+} // namespace Signoton
+
+#endif

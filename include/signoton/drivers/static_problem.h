@@ -1,0 +1,79 @@
+#ifndef signoton_drivers_static_problem_h
+#define signoton_drivers_static_problem_h
+
+#include <signoton/drivers/model.h>
+
+namespace Signoton
+{
+  /**
+   * The minimization that a load step is: $J(u)=\int W_n(\varepsilon(u))-L(u)$
+   * over the displacements that fulfill the constraints of the space.
+   */
+  template <int dim>
+  class StaticProblem : public ConvexProblem
+  {
+  public:
+    explicit StaticProblem(Model<dim> &model);
+
+    /** Adapt to a new mesh. */
+    void
+    reinit();
+
+    /** Take the loads and constraints of the time last set in the model. */
+    void
+    update_loads();
+
+    double
+    evaluate(const VectorType &u,
+             VectorType       &gradient,
+             const bool        linearize) override;
+
+    double
+    force_scale(const VectorType &u) override;
+
+    LinearResult
+    solve(const VectorType &rhs,
+          VectorType       &du,
+          const double      tolerance,
+          const double      regularization) override;
+
+    /**
+     * Move @p u, which fulfills older constraints, to the present ones by one
+     * linear step with the tangent at @p u, so that a prescribed displacement
+     * spreads into the body instead of crushing a layer of cells.
+     */
+    bool
+    predict(VectorType &u, const double regularization);
+
+    /** Internal force minus loads with the entries of constrained unknowns:
+     *  the forces of the supports. */
+    VectorType
+    support_forces(const VectorType &u);
+
+    /** Sum of the forces of the supports at each boundary condition in N (per
+     *  metre in plane strain). */
+    std::vector<Tensor<1, dim>>
+    reactions(const VectorType &u);
+
+    /** Internal force before the elimination of constraints. */
+    VectorType
+    internal_force_of_mesh(const VectorType &u);
+
+  private:
+    /** Assemble and prepare the solver unless that is done already. */
+    void
+    prepare(const double regularization);
+
+    Model<dim>                      &model;
+    VectorType                       load;
+    VectorType                       load_of_mesh;
+    TrilinosWrappers::SparseMatrix   matrix;
+    LinearSolver                     linear_solver;
+    std::vector<std::vector<double>> near_null_space;
+    /** Regularization that the matrix was assembled with, none if the point
+     *  of linearization has moved since. */
+    std::optional<double>            assembled;
+  };
+} // namespace Signoton
+
+#endif

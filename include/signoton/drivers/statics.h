@@ -1,0 +1,72 @@
+#ifndef signoton_drivers_statics_h
+#define signoton_drivers_statics_h
+
+#include <signoton/drivers/results.h>
+#include <signoton/drivers/static_problem.h>
+
+namespace Signoton
+{
+  /**
+   * Quasi-static equilibrium along a load history.
+   *
+   * A step goes from the accepted state at $t_n$ to a trial state at
+   * $t_{n+1}$. The mesh is refined inside the step: accepted and trial state
+   * move to the new mesh together and the step is solved again, so that a
+   * step that fails later can still be cut. Only then is it accepted.
+   *
+   * What is tried when Newton's method fails, in this order: the same step with
+   * strong binders that are weakened by tenths (if there are proportional
+   * binders), half the step. Below the smallest step the run ends with
+   * ExitStatus::no_equilibrium; all accepted steps are on disk.
+   */
+  template <int dim>
+  class Statics
+  {
+  public:
+    explicit Statics(Model<dim> &model);
+
+    /** Start from the unloaded state, or from a checkpoint. */
+    ExitStatus
+    run(const std::string &resume_directory = "");
+
+  private:
+    void
+    setup_unknowns();
+
+    /** Solve for the trial state at @p time from a guess.
+     *  @param predict whether the guess is the accepted state, from which a
+     *    predictor leads to the new constraints */
+    NewtonResult
+    solve(const double time, VectorType &u, const bool predict);
+
+    /** Take a step of any size up to dt; false if none succeeds. */
+    bool
+    advance();
+
+    /** Refine the mesh; false if it stays as it is. Changes the accepted
+     *  state, and the trial displacement, to the new mesh. */
+    bool
+    refine(VectorType &trial);
+
+    void
+    transfer(VectorType &trial);
+
+    void
+    accept(const VectorType &trial, const double dt);
+
+    Model<dim>                       &model;
+    StaticProblem<dim>                problem;
+    Newton                            newton;
+    std::unique_ptr<PointSpace<dim>>  history_space;
+    Results<dim>                      results;
+
+    StepRecord   record;
+    NewtonResult last_result;
+    VectorType   displacement; ///< accepted
+    VectorType   mesh_force;   ///< accepted, for the work of loads
+    double       time           = 0.;
+    double       step_size      = 0.;
+  };
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,149 @@
+#ifndef signoton_operators_mechanics_h
+#define signoton_operators_mechanics_h
+
+#include <signoton/discretization/space.h>
+#include <signoton/rheology/material.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+namespace Signoton
+{
+  /** Sums over the body, on all ranks. */
+  struct EnergyBalance
+  {
+    double stored      = 0.; ///< in J
+    double dissipation = 0.; ///< of the step, in J
+    /** Volume in each region, as a part of the whole. */
+    std::array<double, Rheology::n_regions> region_share{};
+  };
+
+  /** Averages over a cell, in the order of the entries xx, yy, zz, xy, xz, yz.
+   *  The average of admissible stresses is admissible: the set is convex. */
+  struct CellAverages
+  {
+    std::array<double, 6> stress{};
+    std::array<double, 6> contact_strain{};
+    std::array<double, 6> plastic_strain{};
+    double                energy_density = 0.;
+    /** The most advanced region at a point of the cell, see
+     *  Rheology::Region. */
+    unsigned int region = 0;
+    /** Whether the points of the cell are in different regions. */
+    bool mixed = false;
+  };
+
+  /**
+   * The integrals of mechanics over the cells of a mesh: internal force,
+   * incremental potential, tangent. They all come from one cell operation,
+   * evaluate gradients - work at points - integrate, which exists once for
+   * each embedding and degree; this class is its face towards solvers and
+   * drivers, which know the dimension only.
+   *
+   * The virtual calls are one for a sweep over the mesh. Inside a sweep the law
+   * is a template argument.
+   */
+  template <int dim>
+  class Mechanics
+  {
+  public:
+    virtual ~Mechanics() = default;
+
+    /** Set up for the current mesh and unknowns. History becomes zero. */
+    virtual void
+    reinit() = 0;
+
+    /** Replace the ratio of all proportional binders by at least
+     *  @p ratio; without argument, go back to the scene's. */
+    virtual void
+    set_binder_ratio(const std::optional<double> &ratio = {}) = 0;
+
+    /** A vector of unknowns with the ghosts that the sweeps need. */
+    virtual void
+    initialize_vector(VectorType &vector) const = 0;
+
+    /**
+     * Internal force $\int\sigma_{n+1}:\varepsilon(v)$ at a displacement that
+     * fulfills all constraints, and with it the trial history.
+     * @param with_tangent also keep the consistent tangent at the points
+     * @return the incremental potential of the body in J
+     */
+    virtual double
+    internal_force(const VectorType &displacement,
+                   VectorType       &force,
+                   const bool        with_tangent) = 0;
+
+    /** The internal force with the entries of constrained unknowns, which are
+     *  the reactions there. Does not touch history. */
+    virtual void
+    reactions(const VectorType &displacement, VectorType &force) = 0;
+
+    /** Product of the kept tangent with an increment that vanishes where the
+     *  displacement is prescribed. */
+    virtual void
+    apply_tangent(const VectorType &increment, VectorType &force) const = 0;
+
+    /** The same for an increment that fulfills inhomogeneous constraints. */
+    virtual void
+    apply_tangent_with_lift(const VectorType &increment,
+                            VectorType       &force) const = 0;
+
+    /**
+     * The kept tangent as a matrix.
+     * @param regularization multiple of the elastic tangent that is added,
+     *   to keep loosened or flowing zones solvable; residuals never have it
+     */
+    virtual void
+    assemble(TrilinosWrappers::SparseMatrix &matrix,
+             const double                    regularization) = 0;
+
+    /** Accept the trial history. */
+    virtual void
+    commit() = 0;
+
+    virtual EnergyBalance
+    energy_balance(const VectorType &displacement) = 0;
+
+    /** Averages for the locally owned active cells, by active cell index. */
+    virtual std::vector<CellAverages>
+    cell_averages(const VectorType &displacement) = 0;
+
+    /** The in-plane entries of the stress as a field of points, in the order
+     *  of the raw entries of a SymmetricTensor<2,dim>. */
+    virtual void
+    stress_field(const VectorType      &displacement,
+                 const PointSpace<dim> &points,
+                 VectorType            &field) = 0;
+
+    /** Numbers of history that the largest law keeps at a point. */
+    virtual unsigned int
+    history_width() const = 0;
+
+    /** Accepted history as a field of points, and back. Interpolation may
+     *  push accumulated scalars below zero: they are cut off there. To bring
+     *  the stress back to the admissible set as well, evaluate the internal
+     *  force and commit: points outside flow, at fixed strain, until inside. */
+    virtual void
+    save_history(const PointSpace<dim> &points, VectorType &field) = 0;
+
+    virtual void
+    load_history(const PointSpace<dim> &points, const VectorType &field) = 0;
+
+    /** Bytes on this rank by purpose. */
+    struct Memory
+    {
+      std::size_t history = 0, tangent = 0, mesh_data = 0;
+    };
+
+    virtual Memory
+    memory() const = 0;
+  };
+
+  /** The mechanics of a space: chooses the instantiation for its degree (1 or
+   *  2) and embedding. Both arguments must outlive the result. */
+  template <int dim>
+  std::unique_ptr<Mechanics<dim>>
+  make_mechanics(const Space<dim>                      &space,
+                 const std::vector<Rheology::Material> &materials);
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,250 @@
+#ifndef signoton_rheology_law_h
+#define signoton_rheology_law_h
+
+#include <signoton/rheology/mises_schleicher.h>
+#include <signoton/rheology/principal_set.h>
+#include <signoton/rheology/von_mises.h>
+
+#include <variant>
+
+namespace Signoton::Rheology
+{
+  /** What a caller wants of a material point; nothing else is computed. */
+  enum Request : unsigned int
+  {
+    stress    = 0, ///< always delivered
+    potential = 1, ///< the incremental potential, for line searches
+    tangent   = 2, ///< the consistent tangent
+    energies  = 4, ///< stored and dissipated energy and internal strains
+    all       = 7
+  };
+
+  /** What a law delivers at a point; members not requested stay untouched. */
+  template <typename Number>
+  struct Response
+  {
+    Tensor2<Number> stress;         ///< $\sigma_{n+1}$ in Pa
+    Tensor4<Number> tangent;        ///< $d\sigma_{n+1}/d\varepsilon_{n+1}$
+    Number          region;         ///< see Region
+    Number          potential;      ///< $W_n(\varepsilon)$ in J/m^3
+    Number          stored_energy;  ///< in J/m^3
+    Number          dissipation;    ///< of the step, in J/m^3
+    Tensor2<Number> contact_strain; ///< strain of the rigid contact
+  };
+
+  /** History of a law with `n_tensors` tensors and `n_scalars` scalars. */
+  template <typename Law, typename Number>
+  struct History
+  {
+    std::array<Tensor2<Number>, Law::n_tensors> tensors;
+    std::array<Number, Law::n_scalars>          scalars;
+  };
+
+  /** The isotropic spring, $\sigma=E:\varepsilon$. */
+  class Elastic
+  {
+  public:
+    static constexpr unsigned int n_tensors = 0, n_scalars = 0;
+
+    explicit Elastic(const Moduli &spring)
+      : spring(spring)
+    {}
+
+    template <unsigned int request, typename Number>
+    void
+    update(const Tensor2<Number> &strain,
+           const History<Elastic, Number> &,
+           History<Elastic, Number> &,
+           Response<Number> &response) const
+    {
+      response.stress = spring.stress(strain);
+      response.region = index(Region::interior);
+      if constexpr (request & tangent)
+        response.tangent = spring.tensor<Number>();
+      if constexpr (request & potential)
+        response.potential = 0.5 * (response.stress * strain);
+      if constexpr (request & energies)
+        {
+          response.stored_energy  = 0.5 * (response.stress * strain);
+          response.dissipation    = 0.;
+          response.contact_strain = Tensor2<Number>();
+        }
+    }
+
+    const Moduli &
+    elasticity() const
+    {
+      return spring;
+    }
+
+  private:
+    Moduli spring;
+  };
+
+  /** Which strain of a law with a projection is remembered. */
+  enum class Memory
+  {
+    none,     ///< rigid contact: reversible
+    cylinder, ///< contact and hinge: only flow on the cylinder is plastic
+    all       ///< plastic hinge
+  };
+
+  /**
+   * A spring in series with an element whose stress is confined to a convex
+   * set $F$, itself in parallel with an optional second spring (the binder of
+   * a granular medium, kinematic hardening of a plastic one):
+   * $$ \varepsilon = E^{-1}:\sigma + x,\qquad
+   *    \sigma = \pi + B:x,\qquad x - x^p_n \in N_F(\pi), $$
+   * where $x$ is the strain of the parallel group and $x^p_n$ the plastic part
+   * of it at the last accepted step. Elimination gives, with $E_c=E+B$,
+   * $$ \pi = \mathrm{proj}_F^{E_c^{-1}}(E:\varepsilon - E_c:x^p_n),\qquad
+   *    \sigma = f\,E:\varepsilon + (1-f)\,\pi, $$
+   * where $f$ scales spherical and deviatoric parts by $k_B/(k_E+k_B)$ and
+   * $\mu_B/(\mu_E+\mu_B)$. A binder proportional to the spring, $f=\lambda$,
+   * gives $\sigma=\lambda s+(1-\lambda)\pi$. The step minimizes the convex
+   * $W_n(\varepsilon)=\tfrac12 f E\varepsilon:\varepsilon +
+   * \langle\pi,t\rangle_c-\tfrac12|\pi|_c^2$ with $t$ the argument of the
+   * projection; $\sigma = dW_n/d\varepsilon$, and
+   * $T = fE+(1-f)T_\pi(1-f)$ is symmetric.
+   *
+   * Source: scheme 2.10b of Sadovskaya and Sadovskii (2012) in tensors; implicit
+   * Euler for the plastic part. The elimination is in doc/equations.md.
+   */
+  template <typename Set, Memory memory>
+  class SpringAndProjection
+  {
+  public:
+    static constexpr unsigned int n_tensors = memory == Memory::none ? 0 : 1;
+    static constexpr unsigned int n_scalars = Set::hardens ? 1 : 0;
+
+    using This = SpringAndProjection<Set, memory>;
+
+    /** @param binder moduli of the parallel spring, zero for none */
+    SpringAndProjection(const Moduli &spring,
+                        const Moduli &binder,
+                        const Set    &set)
+      : spring(spring)
+      , binder(binder)
+      , metric{spring.bulk + binder.bulk, spring.shear + binder.shear}
+      , to_spring{binder.bulk / metric.bulk, binder.shear / metric.shear}
+      , to_set{spring.bulk / metric.bulk, spring.shear / metric.shear}
+      , set(set)
+    {}
+
+    template <unsigned int request, typename Number>
+    void
+    update(const Tensor2<Number>       &strain,
+           const History<This, Number> &accepted,
+           History<This, Number>       &trial,
+           Response<Number>            &response) const
+    {
+      const Tensor2<Number> s = spring.stress(strain);
+      Tensor2<Number>       t = s;
+      Projection<Number>    projection;
+      if constexpr (n_tensors > 0)
+        t -= metric.stress(accepted.tensors[0]);
+      if constexpr (n_scalars > 0)
+        projection.hardening = accepted.scalars[0];
+
+      set.template project<(request & tangent) != 0>(t, metric, projection);
+
+      response.stress = to_spring(s) + to_set(projection.stress);
+      response.region = projection.region;
+      if constexpr (n_tensors > 0)
+        trial.tensors[0] =
+          accepted.tensors[0] +
+          plastic_part(metric.strain(t - projection.stress), projection.region);
+      if constexpr (n_scalars > 0)
+        trial.scalars[0] = projection.hardening;
+      if constexpr (request & tangent)
+        response.tangent = to_set.both_sides(projection.tangent) +
+                           isotropic_tensor<Number>(
+                             Number(spring.bulk * to_spring.spherical),
+                             Number(2. * spring.shear * to_spring.deviatoric));
+      if constexpr (request & potential)
+        response.potential =
+          0.5 * (to_spring(s) * strain) +
+          metric.energy_product(projection.stress,
+                                t - 0.5 * projection.stress) +
+          projection.potential_correction;
+      if constexpr (request & energies)
+        account(s, projection, accepted, trial, response);
+    }
+
+    const Moduli &
+    elasticity() const
+    {
+      return spring;
+    }
+
+  private:
+    template <typename Number>
+    Tensor2<Number>
+    plastic_part(const Tensor2<Number> &q, const Number &region) const
+    {
+      if constexpr (memory == Memory::cylinder)
+        return set.cylinder_part(q, region);
+      else
+        return q;
+    }
+
+    /** Stored energy: both springs, isotropic hardening, and the work against
+     *  the cohesion of an open contact. Dissipation: the end-of-step stress on
+     *  the hinge, less what hardens it, times the slip of the step. So the sum
+     *  of stored energy and dissipation grows by exactly
+     *  $W_n(\varepsilon_{n+1})-W_n(\varepsilon_n)$. */
+    template <typename Number>
+    void
+    account(const Tensor2<Number>       &s,
+            const Projection<Number>    &projection,
+            const History<This, Number> &accepted,
+            const History<This, Number> &trial,
+            Response<Number>            &response) const
+    {
+      const Tensor2<Number> x = metric.strain(s - projection.stress);
+      response.stored_energy =
+        0.5 * spring.energy_product(response.stress, response.stress) +
+        0.5 * (binder.stress(x) * x);
+      response.dissipation    = 0.;
+      response.contact_strain = Tensor2<Number>();
+      if constexpr (n_tensors > 0)
+        response.dissipation =
+          projection.stress * (trial.tensors[0] - accepted.tensors[0]);
+      if constexpr (n_scalars > 0)
+        {
+          response.stored_energy += set.hardening_energy(trial.scalars[0]);
+          response.dissipation -= set.hardening_stress(trial.scalars[0]) *
+                                  (trial.scalars[0] - accepted.scalars[0]);
+        }
+      if constexpr (memory != Memory::all)
+        {
+          response.contact_strain = x;
+          if constexpr (n_tensors > 0)
+            response.contact_strain -= trial.tensors[0];
+          response.stored_energy +=
+            set.apex_tension() * trace(response.contact_strain);
+        }
+    }
+
+    Moduli           spring;
+    Moduli           binder;
+    Moduli           metric;
+    IsotropicScaling to_spring;
+    IsotropicScaling to_set;
+    Set              set;
+  };
+
+  /** Every law with a closed form. The choice is made once for a run of cells,
+   *  never inside the loop over their points. */
+  using Law = std::variant<
+    Elastic,
+    SpringAndProjection<MisesSchleicherCone, Memory::none>,
+    SpringAndProjection<PrincipalSet, Memory::none>,
+    SpringAndProjection<MisesSchleicherCone, Memory::cylinder>,
+    SpringAndProjection<VonMisesCylinder<false>, Memory::all>,
+    SpringAndProjection<VonMisesCylinder<true>, Memory::all>,
+    SpringAndProjection<MisesSchleicherCone, Memory::all>,
+    SpringAndProjection<PrincipalSet, Memory::all>>;
+} // namespace Signoton::Rheology
+
+#endif

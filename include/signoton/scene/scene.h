@@ -1,0 +1,83 @@
+#ifndef signoton_scene_scene_h
+#define signoton_scene_scene_h
+
+#include <signoton/drivers/model.h>
+
+#include <iosfwd>
+
+namespace Signoton
+{
+  /** What the command line asks for. */
+  struct Options
+  {
+    enum class Action
+    {
+      run,
+      explain,
+      validate
+    };
+
+    Action                   action = Action::run;
+    std::string              scene_file;
+    std::string              output_directory;
+    std::string              resume_directory;
+    std::vector<std::string> overrides;
+  };
+
+  /**
+   * A scene of one dimension: declares all parameters, reads them strictly,
+   * checks them against each other, builds the model.
+   */
+  template <int dim>
+  class Scene
+  {
+  public:
+    Scene(const MPI_Comm &communicator, const SceneFile &file);
+
+    /** Mesh, space and mechanics; checks that need the mesh. */
+    void
+    build();
+
+    /** Print all parameters with their documentation. */
+    static void
+    print_template(std::ostream &out);
+
+    Model<dim> model;
+
+    std::string title;
+    std::string analysis = "statics";
+
+  private:
+    void
+    add_parameters(ParameterHandler &handler);
+
+    /** What needs the values of several keys. */
+    void
+    interpret();
+
+    void
+    check_materials() const;
+
+    void
+    check_supports() const;
+
+    ParameterHandler handler;
+    int              dimension      = dim;
+    std::string      embedding      = dim == 2 ? "plane strain" : "solid";
+    unsigned int     degree         = 1;
+    std::string      constants_text = "";
+    std::string      gravity_text   = "";
+    std::string      reference_text = "";
+    Constants        constants;
+  };
+
+  /** Read, build and run a scene as the options say. */
+  ExitStatus
+  run_scene(const MPI_Comm &communicator, const Options &options);
+
+  /** A commented parameter file for an analysis. */
+  std::string
+  scene_template(const std::string &analysis);
+} // namespace Signoton
+
+#endif

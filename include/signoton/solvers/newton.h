@@ -1,0 +1,121 @@
+#ifndef signoton_solvers_newton_h
+#define signoton_solvers_newton_h
+
+#include <signoton/solvers/linear_solver.h>
+
+namespace Signoton
+{
+  /**
+   * A convex minimization problem as Newton's method sees it: the energy
+   * $J(x)$, its gradient, and a solver for the linearization.
+   */
+  class ConvexProblem
+  {
+  public:
+    using VectorType = LinearAlgebra::distributed::Vector<double>;
+
+    virtual ~ConvexProblem() = default;
+
+    /**
+     * Gradient and energy at @p x.
+     * @param linearize also keep what solve() needs
+     * @return the energy
+     */
+    virtual double
+    evaluate(const VectorType &x,
+             VectorType       &gradient,
+             const bool        linearize) = 0;
+
+    /** Size of the forces that balance in the gradient at the point last
+     *  evaluated: what a small gradient is compared with. */
+    virtual double
+    force_scale(const VectorType &x) = 0;
+
+    /** Solve (tangent + regularization * elastic tangent) @p dx = @p rhs. */
+    virtual LinearResult
+    solve(const VectorType &rhs,
+          VectorType       &dx,
+          const double      tolerance,
+          const double      regularization) = 0;
+  };
+
+  /** One line of the history of a Newton solve. */
+  struct NewtonIteration
+  {
+    double       residual;          ///< relative to the force scale
+    unsigned int linear_iterations; ///< to get here from the previous iterate
+    double       step_length;       ///< of the line search
+  };
+
+  /** How a Newton solve went. */
+  struct NewtonResult
+  {
+    bool                         converged = false;
+    std::string                  reason; ///< why it stopped, if not converged
+    std::vector<NewtonIteration> history;
+    double                       regularization = 0.;
+
+    unsigned int
+    iterations() const
+    {
+      return history.empty() ? 0 : history.size() - 1;
+    }
+
+    unsigned int
+    most_linear_iterations() const;
+
+    unsigned int
+    linear_iterations() const;
+  };
+
+  /**
+   * Semismooth Newton with a line search on the convex energy.
+   *
+   * A step length is accepted if it decreases the energy sufficiently
+   * (Armijo), or, where differences of energies drown in round-off, if it
+   * halves the slope. Otherwise the next trial is the secant zero of the
+   * slope, which a convex function makes monotone. If the linear solver
+   * gives up, the tangent (never the residual) is regularized by a multiple of
+   * the elastic one, which shrinks again once steps succeed.
+   */
+  class Newton
+  {
+  public:
+    using VectorType = LinearAlgebra::distributed::Vector<double>;
+
+    struct Parameters
+    {
+      void
+      add_parameters(ParameterHandler &handler);
+
+      unsigned int maximum_iterations        = 30;
+      double       tolerance                 = 1e-10;
+      unsigned int maximum_line_search_steps = 12;
+      double       regularization            = 0.;
+    };
+
+    explicit Newton(const Parameters &parameters)
+      : parameters(parameters)
+    {}
+
+    /** Minimize from @p x, which fulfills all constraints, as do all iterates
+     *  since increments fulfill the homogeneous ones. On failure @p x is the
+     *  best iterate. */
+    NewtonResult
+    solve(ConvexProblem &problem, VectorType &x) const;
+
+  private:
+    /** Line search from x along dx; returns the step length, 0 on failure.
+     *  Leaves the problem linearized at the new x. */
+    double
+    search(ConvexProblem    &problem,
+           const VectorType &dx,
+           VectorType       &x,
+           VectorType       &gradient,
+           double           &energy) const;
+
+    const Parameters &parameters;
+  };
+} // namespace Signoton
+
+#endif

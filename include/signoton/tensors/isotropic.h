@@ -1,0 +1,147 @@
+#ifndef signoton_tensors_isotropic_h
+#define signoton_tensors_isotropic_h
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/vectorization.h>
+
+namespace Signoton
+{
+  using namespace dealii;
+
+  /**
+   * Stress and strain are three-dimensional at every material point, whatever
+   * the dimension of the mesh; see Embedding for the way in and out.
+   */
+  template <typename Number = double>
+  using Tensor2 = SymmetricTensor<2, 3, Number>;
+
+  template <typename Number = double>
+  using Tensor4 = SymmetricTensor<4, 3, Number>;
+
+  /** Pressure $p = -\mathrm{tr}\,\sigma/3$, positive in compression. */
+  template <typename Number>
+  Number
+  pressure(const Tensor2<Number> &stress)
+  {
+    return trace(stress) * (-1. / 3.);
+  }
+
+  /** $t - \mathrm{tr}\,t\, I/3$. The function deviator() of deal.II 9.4 divides by
+   *  an `int`, which vectorized numbers do not take. */
+  template <typename Number>
+  Tensor2<Number>
+  deviatoric_part(const Tensor2<Number> &t)
+  {
+    Tensor2<Number> result = t;
+    const Number    mean   = trace(t) * (1. / 3.);
+    for (unsigned int i = 0; i < 3; ++i)
+      result[i][i] -= mean;
+    return result;
+  }
+
+  /** Shear intensity $\tau = \sqrt{s':s'/2}$ of a *deviatoric* stress. */
+  template <typename Number>
+  Number
+  shear_intensity(const Tensor2<Number> &stress_deviator)
+  {
+    return std::sqrt(0.5 * (stress_deviator * stress_deviator));
+  }
+
+  /** The isotropic tensor $c_v\, I\otimes I + c_d\, I_d$, with the deviatoric
+   *  identity $I_d$: the elasticity tensor for $c_v=k$, $c_d=2\mu$. */
+  template <typename Number>
+  Tensor4<Number>
+  isotropic_tensor(const Number &volumetric, const Number &deviatoric)
+  {
+    return volumetric * outer_product(unit_symmetric_tensor<3, Number>(),
+                                      unit_symmetric_tensor<3, Number>()) +
+           deviatoric * deviator_tensor<3, Number>();
+  }
+
+  /**
+   * Moduli of an isotropic spring: bulk modulus $k$ and shear modulus $\mu$,
+   * both in Pa. Also the metric of an energy norm,
+   * $|\sigma|^2 = p^2/k + \tau^2/\mu$.
+   */
+  struct Moduli
+  {
+    double bulk;
+    double shear;
+
+    /** $E:\varepsilon = k\,\theta\,I + 2\mu\,\varepsilon'$. */
+    template <typename Number>
+    Tensor2<Number>
+    stress(const Tensor2<Number> &strain) const
+    {
+      const Number theta = trace(strain);
+      return (bulk - 2. / 3. * shear) * theta *
+               unit_symmetric_tensor<3, Number>() +
+             2. * shear * strain;
+    }
+
+    /** The inverse of stress(). */
+    template <typename Number>
+    Tensor2<Number>
+    strain(const Tensor2<Number> &stress) const
+    {
+      const Number tr = trace(stress);
+      return (1. / (9. * bulk) - 1. / (6. * shear)) * tr *
+               unit_symmetric_tensor<3, Number>() +
+             1. / (2. * shear) * stress;
+    }
+
+    template <typename Number>
+    Tensor4<Number>
+    tensor() const
+    {
+      return isotropic_tensor<Number>(Number(bulk), Number(2. * shear));
+    }
+
+    /** The inner product $\sigma : a : \tau$ of the energy norm, in J/m^3. */
+    template <typename Number>
+    Number
+    energy_product(const Tensor2<Number> &a, const Tensor2<Number> &b) const
+    {
+      return (1. / (9. * bulk) - 1. / (6. * shear)) * trace(a) * trace(b) +
+             1. / (2. * shear) * (a * b);
+    }
+  };
+
+  /**
+   * An operator that scales the spherical and the deviatoric part of a
+   * tensor by a factor each. It commutes with isotropic elasticity.
+   */
+  struct IsotropicScaling
+  {
+    double spherical;
+    double deviatoric;
+
+    template <typename Number>
+    Tensor2<Number>
+    operator()(const Tensor2<Number> &t) const
+    {
+      return deviatoric * t + (spherical - deviatoric) / 3. * trace(t) *
+                                unit_symmetric_tensor<3, Number>();
+    }
+
+    /** $A : T : A$ for a tangent $T$ with both minor symmetries. */
+    template <typename Number>
+    Tensor4<Number>
+    both_sides(const Tensor4<Number> &tangent) const
+    {
+      const auto   I      = unit_symmetric_tensor<3, Number>();
+      const double offset = (spherical - deviatoric) / 3.;
+      Tensor4<Number> scaled = (deviatoric * deviatoric) * tangent;
+      if (offset != 0.)
+        {
+          const Tensor2<Number> right = tangent * I, left = I * tangent;
+          scaled += (deviatoric * offset) *
+                    (outer_product(right, I) + outer_product(I, left));
+          scaled += (offset * offset * trace(right)) * outer_product(I, I);
+        }
+      return scaled;
+    }
+  };
+} // namespace Signoton
+
+#endif

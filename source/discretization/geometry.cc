@@ -1,0 +1,431 @@
+#include <signoton/base/function.h>
+#include <signoton/discretization/geometry.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <gmsh.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <unistd.h>
+
+namespace Signoton
+{
+  namespace
+  {
+    const SceneFile::Path section = {"Geometry"};
+
+    /** Names of the boundary ids that deal.II gives to colorized boxes and
+     *  shells, so that common scenes need not list them. */
+    BoundaryNames
+    default_names(const std::string &generator, const int dim)
+    {
+      if (generator == "hyper_cube" || generator == "hyper_rectangle" ||
+          generator == "subdivided_hyper_rectangle")
+        return dim == 2 ? BoundaryNames{{"left", 0},
+                                        {"right", 1},
+                                        {"bottom", 2},
+                                        {"top", 3}} :
+                          BoundaryNames{{"left", 0},
+                                        {"right", 1},
+                                        {"front", 2},
+                                        {"back", 3},
+                                        {"bottom", 4},
+                                        {"top", 5}};
+      if (generator == "quarter_hyper_shell")
+        return dim == 2 ? BoundaryNames{{"inner", 0},
+                                        {"outer", 1},
+                                        {"axis x", 2},
+                                        {"axis y", 3}} :
+                          BoundaryNames{{"inner", 0},
+                                        {"outer", 1},
+                                        {"plane x", 2},
+                                        {"plane y", 3},
+                                        {"plane z", 4}};
+      return {};
+    }
+
+    /** `name: rest; name: rest` */
+    std::vector<std::pair<std::string, std::string>>
+    parse_list(const std::string &text,
+               const std::string &where,
+               const std::string &expected)
+    {
+      std::vector<std::pair<std::string, std::string>> result;
+      for (const auto &item : Utilities::split_string_list(text, ';'))
+        {
+          const auto colon = item.find(':');
+          if (colon == std::string::npos)
+            throw UserError(where,
+                            "'" + item + "'",
+                            expected,
+                            "put a colon after the name and ';' between "
+                            "items");
+          result.emplace_back(Utilities::trim(item.substr(0, colon)),
+                              Utilities::trim(item.substr(colon + 1)));
+        }
+      return result;
+    }
+
+    bool
+    is_number(const std::string &text)
+    {
+      return !text.empty() &&
+             text.find_first_not_of("0123456789") == std::string::npos;
+    }
+
+    /** The physical groups of codimension one in a .msh file. */
+    BoundaryNames
+    physical_names(const std::string &msh, const int dim)
+    {
+      BoundaryNames      names;
+      std::istringstream stream(msh);
+      std::string        line;
+      while (std::getline(stream, line))
+        if (line.rfind("$PhysicalNames", 0) == 0)
+          {
+            unsigned int n = 0;
+            stream >> n;
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                int entity_dim = 0, tag = 0;
+                stream >> entity_dim >> tag;
+                std::getline(stream, line);
+                const auto first = line.find('"'), last = line.rfind('"');
+                if (entity_dim == dim - 1 && first < last)
+                  names[line.substr(first + 1, last - first - 1)] = tag;
+              }
+          }
+      return names;
+    }
+
+    /** Mesh a .geo file; returns the text of a .msh file, or an error behind
+     *  an exclamation mark. */
+    std::string
+    run_gmsh(const std::string &geo_file, const int dim)
+    {
+      std::string error, text;
+      const auto  msh_file = (std::filesystem::temp_directory_path() /
+                             ("signoton-" + std::to_string(getpid()) + ".msh"))
+                              .string();
+      gmsh::initialize();
+      gmsh::option::setNumber("General.Terminal", 0);
+      gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
+      try
+        {
+          gmsh::open(geo_file);
+          gmsh::model::mesh::generate(dim);
+          gmsh::write(msh_file);
+          std::stringstream stream;
+          stream << std::ifstream(msh_file).rdbuf();
+          text = stream.str();
+        }
+      catch (...) // gmsh throws integers or strings, by version
+        {
+          gmsh::logger::getLastError(error);
+          error = "!" + (error.empty() ? "gmsh gave up" : error);
+        }
+      gmsh::finalize();
+      std::filesystem::remove(msh_file);
+      return error.empty() ? text : error;
+    }
+  } // namespace
+
+  void
+  Geometry::add_parameters(ParameterHandler &handler)
+  {
+    handler.enter_subsection("Geometry");
+    handler.add_parameter("Generator",
+                          generator,
+                          "Name of a function of deal.II's GridGenerator.");
+    handler.add_parameter("Arguments",
+                          arguments,
+                          "Its arguments in order, separated by ':'; the "
+                          "coordinates of a point by ','.");
+    handler.add_parameter("Mesh file",
+                          mesh_file,
+                          "A gmsh file, .msh or .geo, of quadrilaterals or "
+                          "hexahedra, instead of a generator; relative to "
+                          "the scene file. Physical groups name the "
+                          "boundaries.");
+    handler.add_parameter(
+      "Boundary names",
+      boundary_names,
+      "Names for parts of the boundary, 'name: id; name: condition'. A "
+      "condition in x, y, z selects the faces of the coarse mesh whose center "
+      "fulfills it, for instance 'plate: y > 0.99 && x < 0.5'. Boxes and "
+      "quarter shells have names already: left, right, (front, back,) bottom, "
+      "top; inner, outer, axis x, axis y (2D), plane x, plane y, plane z (3D).");
+    handler.add_parameter("Material ids",
+                          material_ids,
+                          "Material ids by position, 'id: condition; ...' "
+                          "for the centers of the coarse cells.");
+    handler.add_parameter("Periodic boundaries",
+                          periodic,
+                          "Pairs of opposite boundaries, 'left: right; "
+                          "front: back', that move alike.");
+    handler.add_parameter("Initial refinement",
+                          initial_refinement,
+                          "Number of uniform refinements of the coarse mesh.",
+                          Patterns::Integer(0, 12));
+    handler.add_parameter("Distortion",
+                          distortion,
+                          "Random shift of inner vertices of the coarse mesh "
+                          "as a part of the edge length, to test a "
+                          "discretization.",
+                          Patterns::Double(0., 0.4));
+    handler.leave_subsection();
+  }
+
+  template <int dim>
+  void
+  Geometry::generate(const SceneFile &file, Triangulation<dim> &mesh) const
+  {
+    try
+      {
+        GridGenerator::generate_from_name_and_arguments(mesh,
+                                                        generator,
+                                                        arguments);
+      }
+    catch (const ExceptionBase &error)
+      {
+        std::ostringstream details;
+        error.print_info(details);
+        throw UserError(
+          file.where(section, "Generator"),
+          "'" + generator + "' with arguments '" + arguments +
+            "', refused by deal.II" +
+            (details.str().empty() ? "" :
+                                     ": " + Utilities::trim(details.str())),
+          "a function of dealii::GridGenerator for " + std::to_string(dim) +
+            "D and all its arguments without default",
+          "compare the manual of GridGenerator: ':' separates arguments, ',' "
+          "coordinates, and booleans are 'true' or 'false'");
+      }
+  }
+
+  template <int dim>
+  BoundaryNames
+  Geometry::read(const SceneFile    &file,
+                 const MPI_Comm     &communicator,
+                 Triangulation<dim> &mesh) const
+  {
+    const std::filesystem::path given(mesh_file);
+    const std::string           path =
+      given.is_absolute() ?
+                  mesh_file :
+                  (std::filesystem::path(file.directory()) / given).string();
+    const auto     refuse       = [&](const std::string &found) {
+      throw UserError(file.where(section, "Mesh file"),
+                      found,
+                      "a gmsh file of " +
+                        std::string(dim == 2 ? "quadrilaterals" :
+                                                     "hexahedra"),
+                      "check the name, relative to the scene file; in a .geo "
+                      "file use 'Recombine Surface', transfinite or extruded "
+                      "meshes, and physical groups for volumes and "
+                      "boundaries");
+    };
+
+    std::string text;
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        if (!std::ifstream(path))
+          text = "!'" + path + "', which cannot be opened";
+        else if (given.extension() == ".geo")
+          text = run_gmsh(path, dim);
+        else
+          {
+            std::stringstream stream;
+            stream << std::ifstream(path).rdbuf();
+            text = stream.str();
+          }
+      }
+    text = Utilities::MPI::broadcast(communicator, text);
+    if (text.empty() || text[0] == '!')
+      refuse(text.empty() ? "'" + path + "', an empty file" : text.substr(1));
+
+    try
+      {
+        GridIn<dim>        reader(mesh);
+        std::istringstream stream(text);
+        reader.read_msh(stream);
+      }
+    catch (const std::exception &error)
+      {
+        refuse("'" + path + "', which deal.II cannot read as a mesh");
+      }
+    if (!mesh.all_reference_cells_are_hyper_cube())
+      refuse("'" + path + "' with triangles or tetrahedra");
+    return physical_names(text, dim);
+  }
+
+  template <int dim>
+  void
+  Geometry::apply_names(const SceneFile    &file,
+                        Triangulation<dim> &mesh,
+                        BoundaryNames      &names) const
+  {
+    const std::string where = file.where(section, "Boundary names");
+    std::set<types::boundary_id> used;
+    for (const auto id : mesh.get_boundary_ids())
+      used.insert(id);
+    for (const auto &[name, what] :
+         parse_list(boundary_names, where, "'name: id' or 'name: condition'"))
+      {
+        if (is_number(what))
+          {
+            names[name] = std::stoul(what);
+            continue;
+          }
+        types::boundary_id id = 100;
+        while (used.count(id) > 0)
+          ++id;
+        used.insert(id);
+        const auto condition =
+          make_function<dim>({what}, parse_constants("", where), where);
+        unsigned int n_faces = 0;
+        for (const auto &cell : mesh.active_cell_iterators())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary() && condition->value(face->center()) != 0.)
+              {
+                face->set_boundary_id(id);
+                ++n_faces;
+              }
+        if (n_faces == 0)
+          throw UserError(where,
+                          "'" + name + ": " + what +
+                            "', which no face of the coarse mesh fulfills",
+                          "a condition that holds at the centers of some "
+                          "boundary faces",
+                          "make the coarse mesh fine enough to resolve it");
+        names[name] = id;
+      }
+    for (const auto id : mesh.get_boundary_ids())
+      if (std::none_of(names.begin(), names.end(), [id](const auto &entry) {
+            return entry.second == id;
+          }))
+        names[std::to_string(id)] = id;
+  }
+
+  template <int dim>
+  void
+  Geometry::apply_material_ids(const SceneFile    &file,
+                               Triangulation<dim> &mesh) const
+  {
+    const std::string where = file.where(section, "Material ids");
+    for (const auto &[id, condition_text] :
+         parse_list(material_ids, where, "'id: condition'"))
+      {
+        if (!is_number(id))
+          throw UserError(where,
+                          "'" + id + "'",
+                          "a material id, a number from 0",
+                          "'1: y > 0.5; 2: x > 0.5'");
+        const auto condition = make_function<dim>({condition_text},
+                                                  parse_constants("", where),
+                                                  where);
+        for (const auto &cell : mesh.active_cell_iterators())
+          if (condition->value(cell->center()) != 0.)
+            cell->set_material_id(std::stoul(id));
+      }
+  }
+
+  template <int dim>
+  std::vector<PeriodicPair>
+  Geometry::find_periodic_pairs(const SceneFile          &file,
+                                const Triangulation<dim> &mesh,
+                                const BoundaryNames      &names) const
+  {
+    const std::string where = file.where(section, "Periodic boundaries");
+    const auto        center = [&](const types::boundary_id id) {
+      Point<dim>   sum;
+      unsigned int n = 0;
+      for (const auto &cell : mesh.active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary() && face->boundary_id() == id)
+            {
+              sum += face->center();
+              ++n;
+            }
+      return sum / std::max(n, 1U);
+    };
+    std::vector<PeriodicPair> pairs;
+    for (const auto &[first, second] :
+         parse_list(periodic, where, "'left: right'"))
+      {
+        for (const std::string &name : {first, second})
+          if (names.count(name) == 0)
+            throw UserError(where,
+                            "unknown boundary '" + name + "'",
+                            "names of boundaries",
+                            "see 'Geometry / Boundary names'");
+        const Tensor<1, dim> shift =
+          center(names.at(second)) - center(names.at(first));
+        unsigned int direction = 0;
+        for (unsigned int d = 1; d < dim; ++d)
+          if (std::abs(shift[d]) > std::abs(shift[direction]))
+            direction = d;
+        pairs.push_back({names.at(first), names.at(second), direction});
+      }
+    return pairs;
+  }
+
+  template <int dim>
+  BoundaryParts
+  Geometry::create(const SceneFile                           &file,
+                   parallel::distributed::Triangulation<dim> &mesh) const
+  {
+    if (file.has(section, "Mesh file") && file.has(section, "Generator"))
+      throw UserError(file.where(section, "Mesh file"),
+                      "both a mesh file and a generator",
+                      "one of them",
+                      "remove the other");
+    // The coarse mesh is finished on a serial mesh: a distributed one must
+    // not change between creation and refinement.
+    Triangulation<dim> coarse;
+    BoundaryParts      parts;
+    if (mesh_file.empty())
+      {
+        generate(file, coarse);
+        // colorized boxes come with a material id for each octant
+        for (const auto &cell : coarse.active_cell_iterators())
+          cell->set_material_id(0);
+        const auto ids = coarse.get_boundary_ids();
+        for (const auto &[name, id] : default_names(generator, dim))
+          if (std::find(ids.begin(), ids.end(), id) != ids.end())
+            parts.names[name] = id;
+      }
+    else
+      parts.names = read(file, mesh.get_communicator(), coarse);
+    apply_material_ids(file, coarse);
+    apply_names(file, coarse, parts.names);
+    parts.periodic = find_periodic_pairs(file, coarse, parts.names);
+    if (distortion > 0.)
+      GridTools::distort_random(distortion, coarse, true);
+    mesh.copy_triangulation(coarse);
+
+    std::vector<GridTools::PeriodicFacePair<
+      typename parallel::distributed::Triangulation<dim>::cell_iterator>>
+      faces;
+    for (const auto &pair : parts.periodic)
+      GridTools::collect_periodic_faces(
+        mesh, pair.first, pair.second, pair.direction, faces);
+    if (!faces.empty())
+      mesh.add_periodicity(faces);
+    mesh.refine_global(initial_refinement);
+    return parts;
+  }
+
+  template BoundaryParts
+  Geometry::create<2>(const SceneFile &,
+                      parallel::distributed::Triangulation<2> &) const;
+  template BoundaryParts
+  Geometry::create<3>(const SceneFile &,
+                      parallel::distributed::Triangulation<3> &) const;
+} // namespace Signoton

@@ -1,0 +1,290 @@
+#include <signoton/discretization/refinement.h>
+
+#include <deal.II/distributed/grid_refinement.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/grid_tools.h>
+
+namespace Signoton
+{
+  void
+  Refinement::add_parameters(ParameterHandler &handler)
+  {
+    handler.enter_subsection("Refinement");
+    handler.add_parameter("Cycles in first step",
+                          cycles_first,
+                          "How often the first step is refined and solved "
+                          "again.");
+    handler.add_parameter("Cycles per step",
+                          cycles_per_step,
+                          "The same for later steps.");
+    handler.add_parameter("Every",
+                          every,
+                          "Refine in every n-th of the later steps.",
+                          Patterns::Integer(1));
+    handler.add_parameter("Refine fraction",
+                          refine_fraction,
+                          "Refine the worst cells, which together make up "
+                          "this part of the squared indicators.",
+                          Patterns::Double(0., 1.));
+    handler.add_parameter("Coarsen fraction",
+                          coarsen_fraction,
+                          "Coarsen the best cells, which together make up "
+                          "this part.",
+                          Patterns::Double(0., 1.));
+    handler.add_parameter("Region weight",
+                          region_weight,
+                          "Factor on the squared indicator of cells where the "
+                          "material switches its branch; 1: no preference.",
+                          Patterns::Double(1.));
+    handler.add_parameter("Maximum level",
+                          maximum_level,
+                          "Finest level; the coarse mesh is level 0.",
+                          Patterns::Integer(0, 20));
+    handler.add_parameter("Minimum level",
+                          minimum_level,
+                          "Coarsest level.",
+                          Patterns::Integer(0, 20));
+    handler.add_parameter("Maximum unknowns",
+                          maximum_unknowns,
+                          "No refinement of a mesh with more unknowns.",
+                          Patterns::Integer(1));
+    handler.leave_subsection();
+  }
+
+  unsigned int
+  Refinement::cycles(const unsigned int step) const
+  {
+    if (step == 1)
+      return cycles_first;
+    return (step - 1) % every == 0 ? cycles_per_step : 0;
+  }
+
+  namespace
+  {
+    /** Tractions of an interpolated stress field on one side of a face. */
+    template <int dim>
+    class FaceTraction
+    {
+    public:
+      explicit FaceTraction(const VectorType &stress)
+        : stress(stress)
+      {}
+
+      std::vector<Tensor<1, dim>>
+      operator()(const FEFaceValuesBase<dim>       &values,
+                 const std::vector<Tensor<1, dim>> &normals)
+      {
+        const unsigned int n = values.n_quadrature_points;
+        raw.assign(n, Vector<double>(values.get_fe().n_components()));
+        values.get_function_values(stress, raw);
+        std::vector<Tensor<1, dim>> traction(n);
+        for (unsigned int q = 0; q < n; ++q)
+          {
+            SymmetricTensor<2, dim> sigma;
+            for (unsigned int c = 0; c < raw[q].size(); ++c)
+              sigma.access_raw_entry(c) = raw[q][c];
+            traction[q] = sigma * normals[q];
+          }
+        return traction;
+      }
+
+    private:
+      const VectorType           &stress;
+      std::vector<Vector<double>> raw;
+    };
+
+    /** The tractions that a boundary condition leaves unbalanced. */
+    template <int dim>
+    void
+    subtract_given(const BoundaryCondition<dim> *condition,
+                   const FEFaceValuesBase<dim>  &values,
+                   std::vector<Tensor<1, dim>>  &traction)
+    {
+      if (condition == nullptr)
+        return;
+      for (unsigned int q = 0; q < traction.size(); ++q)
+        {
+          const auto &p = values.quadrature_point(q);
+          const auto &n = values.normal_vector(q);
+          if (condition->pressure)
+            traction[q] += condition->pressure->value(p) * n;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              if (condition->traction)
+                traction[q][d] -= condition->traction->value(p, d);
+              if (condition->displacement[d])
+                traction[q][d] = 0.;
+            }
+          if (condition->symmetry)
+            traction[q] -= (traction[q] * n) * n;
+        }
+    }
+  } // namespace
+
+  template <int dim>
+  Vector<float>
+  Refinement::traction_jumps(
+    const Space<dim>                           &space,
+    const PointSpace<dim>                      &points,
+    const VectorType                           &stress,
+    const BoundaryConditions<dim>              &conditions,
+    const std::map<types::material_id, double> &shear_modulus)
+  {
+    const QGauss<dim - 1> quadrature(space.degree + 1);
+    const auto            flags = update_values | update_quadrature_points |
+                       update_JxW_values | update_normal_vectors;
+    FEFaceValues<dim> here(space.mapping, points.fe, quadrature, flags);
+    FESubfaceValues<dim> here_part(space.mapping, points.fe, quadrature, flags);
+    FEFaceValues<dim> there(space.mapping, points.fe, quadrature, update_values);
+    FESubfaceValues<dim> there_part(space.mapping,
+                                    points.fe,
+                                    quadrature,
+                                    update_values);
+    FaceTraction<dim> traction(stress);
+    std::map<types::boundary_id, const BoundaryCondition<dim> *> by_id;
+    for (const auto &condition : conditions)
+      by_id[condition.id] = &condition;
+
+    const auto square = [&](const FEFaceValuesBase<dim>       &values,
+                            const std::vector<Tensor<1, dim>> &mine,
+                            const std::vector<Tensor<1, dim>> &other) {
+      double sum = 0.;
+      for (unsigned int q = 0; q < mine.size(); ++q)
+        sum += (mine[q] - other[q]).norm_square() *
+               space.weight(values.quadrature_point(q)) * values.JxW(q);
+      return sum;
+    };
+
+    Vector<float> indicators(space.mesh.n_active_cells());
+    const std::vector<Tensor<1, dim>> none(quadrature.size());
+    for (const auto &cell : points.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          double sum = 0.;
+          for (const auto f : cell->face_indices())
+            {
+              const double h =
+                cell->face(f)->diameter() / shear_modulus.at(cell->material_id());
+              if (cell->at_boundary(f))
+                {
+                  if (cell->has_periodic_neighbor(f))
+                    continue;
+                  here.reinit(cell, f);
+                  auto mine        = traction(here, here.get_normal_vectors());
+                  const auto found = by_id.find(cell->face(f)->boundary_id());
+                  subtract_given(found == by_id.end() ? nullptr : found->second,
+                                 here,
+                                 mine);
+                  sum += 0.5 * h * square(here, mine, none);
+                }
+              else if (cell->face(f)->has_children())
+                for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
+                  {
+                    here_part.reinit(cell, f, s);
+                    const auto child =
+                      cell->neighbor_child_on_subface(f, s);
+                    there.reinit(child, cell->neighbor_face_no(f));
+                    const auto &n = here_part.get_normal_vectors();
+                    sum += 0.25 * h *
+                           square(here_part, traction(here_part, n),
+                                  traction(there, n));
+                  }
+              else
+                {
+                  here.reinit(cell, f);
+                  const auto &n        = here.get_normal_vectors();
+                  const auto  mine     = traction(here, n);
+                  const auto  neighbor = cell->neighbor(f);
+                  if (cell->neighbor_is_coarser(f))
+                    {
+                      const auto where =
+                        cell->neighbor_of_coarser_neighbor(f);
+                      there_part.reinit(neighbor, where.first, where.second);
+                      sum += 0.25 * h * square(here, mine,
+                                               traction(there_part, n));
+                    }
+                  else
+                    {
+                      there.reinit(neighbor, cell->neighbor_of_neighbor(f));
+                      sum += 0.25 * h * square(here, mine, traction(there, n));
+                    }
+                }
+            }
+          indicators[cell->active_cell_index()] = sum;
+        }
+    return indicators;
+  }
+
+  template <int dim>
+  bool
+  Refinement::mark(Space<dim>                      &space,
+                   Vector<float>                   &indicators,
+                   const std::vector<unsigned int> &region,
+                   const std::vector<bool>         &mixed) const
+  {
+    std::vector<unsigned int> all_regions(region);
+    GridTools::exchange_cell_data_to_ghosts<unsigned int>(
+      space.mesh,
+      [&](const auto &cell) {
+        return std_cxx17::optional<unsigned int>(
+          region[cell->active_cell_index()]);
+      },
+      [&](const auto &cell, const unsigned int value) {
+        all_regions[cell->active_cell_index()] = value;
+      });
+
+    for (const auto &cell : space.mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int i        = cell->active_cell_index();
+          bool               switches = mixed[i];
+          for (const auto f : cell->face_indices())
+            if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
+              switches |=
+                all_regions[cell->neighbor(f)->active_cell_index()] !=
+                region[i];
+          if (switches)
+            indicators[i] *= region_weight;
+          // Half percent steps: cells that are equal by symmetry stay equal.
+          if (indicators[i] > 0.f)
+            indicators[i] =
+              std::exp(std::round(200. * std::log(indicators[i])) / 200.);
+        }
+
+    const bool full = space.dof_handler.n_dofs() > maximum_unknowns;
+    parallel::distributed::GridRefinement::refine_and_coarsen_fixed_fraction(
+      space.mesh,
+      indicators,
+      full ? 0. : refine_fraction,
+      coarsen_fraction,
+      VectorTools::NormType::L1_norm);
+    unsigned int changes = 0;
+    for (const auto &cell : space.mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          if (cell->level() >= static_cast<int>(maximum_level))
+            cell->clear_refine_flag();
+          if (cell->level() <= static_cast<int>(minimum_level))
+            cell->clear_coarsen_flag();
+          changes += cell->refine_flag_set() ? 1 : 0;
+        }
+    return Utilities::MPI::sum(changes, space.communicator) > 0;
+  }
+
+#define INSTANTIATE(dim)                                    \
+  template Vector<float> Refinement::traction_jumps<dim>(   \
+    const Space<dim> &,                                     \
+    const PointSpace<dim> &,                                \
+    const VectorType &,                                     \
+    const BoundaryConditions<dim> &,                        \
+    const std::map<types::material_id, double> &);          \
+  template bool Refinement::mark<dim>(                      \
+    Space<dim> &,                                           \
+    Vector<float> &,                                        \
+    const std::vector<unsigned int> &,                      \
+    const std::vector<bool> &) const;
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Signoton

@@ -1,0 +1,258 @@
+#include <signoton/drivers/checkpoint.h>
+
+#include <deal.II/distributed/solution_transfer.h>
+
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace Signoton
+{
+  namespace
+  {
+    constexpr double format = 1;
+
+    bool
+    is_root(const MPI_Comm &communicator)
+    {
+      return Utilities::MPI::this_mpi_process(communicator) == 0;
+    }
+
+    /** A sum that changes with the unknowns of the coarse mesh: a checkpoint
+     *  of another scene must not be read. */
+    template <int dim>
+    double
+    fingerprint(const Model<dim> &model)
+    {
+      const auto &mesh = model.space->mesh;
+      double      sum  = 0.;
+      for (unsigned int v = 0; v < mesh.n_cells(0); ++v)
+        sum += v + 1;
+      return sum + 1000. * model.space->degree + 10000. * dim +
+             100000. * model.mechanics->history_width();
+    }
+
+    void
+    check_same(const std::string &where,
+               const std::string &what,
+               const double       found,
+               const double       expected)
+    {
+      if (std::abs(found - expected) > 0.5)
+        throw UserError("checkpoint '" + where + "'",
+                        what + " " + std::to_string(found),
+                        what + " " + std::to_string(expected) +
+                          " as in the scene",
+                        "resume with the scene file that wrote the checkpoint "
+                        "(resolved.prm beside it)");
+    }
+  } // namespace
+
+  template <int dim>
+  Checkpoint<dim>::Checkpoint(Model<dim>        &model,
+                              const std::string &directory)
+    : model(model)
+    , directory(directory)
+  {}
+
+  template <int dim>
+  void
+  Checkpoint<dim>::set(const std::string &name, const double value)
+  {
+    numbers[name] = value;
+  }
+
+  template <int dim>
+  double
+  Checkpoint<dim>::number(const std::string &name) const
+  {
+    const auto found = numbers.find(name);
+    if (found == numbers.end())
+      throw UserError("checkpoint '" + directory + "'",
+                      "no entry '" + name + "'",
+                      "a complete checkpoint of this program",
+                      "use an older checkpoint or start anew");
+    return found->second;
+  }
+
+  template <int dim>
+  std::vector<std::string>
+  Checkpoint<dim>::names(const std::string &prefix) const
+  {
+    std::vector<std::string> result;
+    for (const auto &entry : numbers)
+      if (entry.first.rfind(prefix, 0) == 0)
+        result.push_back(entry.first);
+    return result;
+  }
+
+  template <int dim>
+  std::string
+  Checkpoint<dim>::mesh_file(const std::string &in_directory) const
+  {
+    return in_directory + "/mesh";
+  }
+
+  template <int dim>
+  void
+  Checkpoint<dim>::write_numbers(const std::string &file_name) const
+  {
+    unsigned int problem = 0;
+    if (is_root(model.communicator))
+      {
+        std::ofstream file(file_name);
+        file.precision(std::numeric_limits<double>::max_digits10);
+        for (const auto &[name, value] : numbers)
+          file << value << ' ' << name << '\n';
+        file.flush();
+        problem = file ? 0 : 1;
+      }
+    if (Utilities::MPI::max(problem, model.communicator) > 0)
+      throw UserError("checkpoint '" + directory + "'",
+                      "it cannot be written",
+                      "space and permission to write",
+                      "free space or choose another output directory; the "
+                      "last complete checkpoint is untouched",
+                      ExitStatus::output_failed);
+  }
+
+  template <int dim>
+  void
+  Checkpoint<dim>::read_numbers()
+  {
+    if (is_root(model.communicator))
+      {
+        std::ifstream file(directory + "/numbers");
+        double        value = 0.;
+        std::string   name;
+        while (file >> value && std::getline(file >> std::ws, name))
+          numbers[name] = value;
+      }
+    numbers = Utilities::MPI::broadcast(model.communicator, numbers);
+    if (numbers.empty())
+      throw UserError("checkpoint '" + directory + "'",
+                      "no readable file 'numbers'",
+                      "a directory with a complete checkpoint",
+                      "give the output directory of a run with 'Output / "
+                      "Checkpoint every' above 0");
+  }
+
+  template <int dim>
+  void
+  Checkpoint<dim>::write(const PointSpace<dim> *history_space,
+                         const VectorType      &displacement)
+  {
+    namespace fs = std::filesystem;
+    const std::string unfinished = directory + ".unfinished";
+    const double      estimate =
+      16. * (model.space->dof_handler.n_dofs() +
+             (history_space ? history_space->dof_handler.n_dofs() : 0)) +
+      1e5;
+    unsigned int problem = 0;
+    if (is_root(model.communicator))
+      {
+        std::error_code error;
+        fs::remove_all(unfinished, error);
+        fs::create_directories(unfinished, error);
+        problem = error ? 1 : 0;
+        if (fs::space(unfinished, error).available < estimate)
+          problem = 1;
+      }
+    if (Utilities::MPI::max(problem, model.communicator) > 0)
+      throw UserError("checkpoint '" + directory + "'",
+                      "it cannot be written, the disk is full or protected",
+                      "about " + std::to_string(estimate / 1e6) + " MB free",
+                      "free space or choose another output directory; the "
+                      "last complete checkpoint is untouched",
+                      ExitStatus::output_failed);
+
+    VectorType u = model.space->make_relevant_vector(), history;
+    u.copy_locally_owned_data_from(displacement);
+    u.update_ghost_values();
+    parallel::distributed::SolutionTransfer<dim, VectorType> save_u(
+      model.space->dof_handler);
+    save_u.prepare_for_serialization(u);
+    std::unique_ptr<parallel::distributed::SolutionTransfer<dim, VectorType>>
+      save_history;
+    if (history_space)
+      {
+        history = history_space->make_relevant_vector();
+        model.mechanics->save_history(*history_space, history);
+        history.update_ghost_values();
+        save_history = std::make_unique<
+          parallel::distributed::SolutionTransfer<dim, VectorType>>(
+          history_space->dof_handler);
+        save_history->prepare_for_serialization(history);
+      }
+    model.space->mesh.save(mesh_file(unfinished));
+
+    set("format", format);
+    set("fingerprint", fingerprint(model));
+    set("active cells", model.space->mesh.n_global_active_cells());
+    write_numbers(unfinished + "/numbers");
+    if (is_root(model.communicator))
+      {
+        const std::string old = directory + ".old";
+        std::error_code   error;
+        fs::remove_all(old, error);
+        if (fs::exists(directory))
+          fs::rename(directory, old);
+        fs::rename(unfinished, directory);
+        fs::remove_all(old, error);
+      }
+    // nobody goes on before the checkpoint is in place
+    MPI_Barrier(model.communicator);
+  }
+
+  template <int dim>
+  void
+  Checkpoint<dim>::load_mesh()
+  {
+    read_numbers();
+    check_same(directory, "format", number("format"), format);
+    model.space->mesh.coarsen_global(100);
+    check_same(directory,
+               "fingerprint of mesh, degree and history",
+               number("fingerprint"),
+               fingerprint(model));
+    try
+      {
+        model.space->mesh.load(mesh_file(directory));
+      }
+    catch (const ExceptionBase &)
+      {
+        throw UserError("checkpoint '" + directory + "'",
+                        "its mesh cannot be read",
+                        "the mesh of the scene, refined",
+                        "use an older checkpoint or start anew");
+      }
+    check_same(directory,
+               "active cells",
+               model.space->mesh.n_global_active_cells(),
+               number("active cells"));
+  }
+
+  template <int dim>
+  void
+  Checkpoint<dim>::load_fields(const PointSpace<dim> *history_space,
+                               VectorType            &displacement)
+  {
+    parallel::distributed::SolutionTransfer<dim, VectorType> load_u(
+      model.space->dof_handler);
+    load_u.deserialize(displacement);
+    if (history_space)
+      {
+        VectorType history = history_space->make_relevant_vector();
+        parallel::distributed::SolutionTransfer<dim, VectorType> load_history(
+          history_space->dof_handler);
+        load_history.deserialize(history);
+        model.mechanics->load_history(*history_space, history);
+      }
+  }
+
+  template class Checkpoint<2>;
+  template class Checkpoint<3>;
+} // namespace Signoton

@@ -1,0 +1,199 @@
+#include <signoton/drivers/static_problem.h>
+#include <signoton/operators/external_force.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+namespace Signoton
+{
+  template <int dim>
+  StaticProblem<dim>::StaticProblem(Model<dim> &model)
+    : model(model)
+    , linear_solver(model.linear_solver, model.ledger)
+  {}
+
+  template <int dim>
+  void
+  StaticProblem<dim>::reinit()
+  {
+    const auto  timer = model.ledger.time("setup");
+    const auto &space = *model.space;
+    const auto &owned = space.dof_handler.locally_owned_dofs();
+    model.mechanics->initialize_vector(load);
+    model.mechanics->initialize_vector(load_of_mesh);
+
+    TrilinosWrappers::SparsityPattern sparsity(owned,
+                                               owned,
+                                               space.relevant_dofs,
+                                               space.communicator);
+    DoFTools::make_sparsity_pattern(
+      space.dof_handler,
+      sparsity,
+      space.constraints,
+      false,
+      Utilities::MPI::this_mpi_process(space.communicator));
+    sparsity.compress();
+    matrix.clear();
+    matrix.reinit(sparsity);
+    assembled.reset();
+
+    near_null_space = rigid_motions(space.mapping,
+                                    space.dof_handler,
+                                    owned,
+                                    space.axisymmetric);
+    for (unsigned int i = 0; i < owned.n_elements(); ++i)
+      if (space.constraints.is_constrained(owned.nth_index_in_set(i)))
+        for (auto &mode : near_null_space)
+          mode[i] = 0.;
+    model.ledger.bytes("matrix", matrix.memory_consumption());
+  }
+
+  template <int dim>
+  void
+  StaticProblem<dim>::update_loads()
+  {
+    const auto timer = model.ledger.time("external force");
+    auto      &space = *model.space;
+    space.update_constraints(model.conditions);
+    external_force(space,
+                   model.conditions,
+                   model.materials,
+                   model.gravity.get(),
+                   space.constraints,
+                   load);
+    external_force(space,
+                   model.conditions,
+                   model.materials,
+                   model.gravity.get(),
+                   space.mesh_constraints,
+                   load_of_mesh);
+  }
+
+  template <int dim>
+  double
+  StaticProblem<dim>::evaluate(const VectorType &u,
+                               VectorType       &gradient,
+                               const bool        linearize)
+  {
+    const auto timer = model.ledger.time("constitutive update");
+    if (linearize)
+      assembled.reset();
+    const double potential =
+      model.mechanics->internal_force(u, gradient, linearize);
+    gradient -= load;
+    return potential - load * u;
+  }
+
+  template <int dim>
+  VectorType
+  StaticProblem<dim>::internal_force_of_mesh(const VectorType &u)
+  {
+    VectorType force;
+    model.mechanics->initialize_vector(force);
+    model.mechanics->reactions(u, force);
+    return force;
+  }
+
+  template <int dim>
+  VectorType
+  StaticProblem<dim>::support_forces(const VectorType &u)
+  {
+    VectorType force = internal_force_of_mesh(u);
+    force -= load_of_mesh;
+    return force;
+  }
+
+  template <int dim>
+  double
+  StaticProblem<dim>::force_scale(const VectorType &u)
+  {
+    const auto       timer   = model.ledger.time("constitutive update");
+    const VectorType support = support_forces(u);
+    double           sum     = 0.;
+    for (const auto dof : support.locally_owned_elements())
+      if (model.space->constraints.is_constrained(dof))
+        sum += support[dof] * support[dof];
+    return std::sqrt(Utilities::MPI::sum(sum, model.communicator)) +
+           load.l2_norm();
+  }
+
+  template <int dim>
+  void
+  StaticProblem<dim>::prepare(const double regularization)
+  {
+    if (assembled && *assembled == regularization)
+      return;
+    {
+      const auto timer = model.ledger.time("assembly");
+      model.mechanics->assemble(matrix, regularization);
+    }
+    linear_solver.initialize(matrix, near_null_space, model.space->degree);
+    assembled = regularization;
+  }
+
+  template <int dim>
+  LinearResult
+  StaticProblem<dim>::solve(const VectorType &rhs,
+                            VectorType       &du,
+                            const double      tolerance,
+                            const double      regularization)
+  {
+    prepare(regularization);
+    const LinearResult result = linear_solver.solve(du, rhs, tolerance);
+    model.space->increment_constraints.distribute(du);
+    model.ledger.count("linear iterations", result.iterations);
+    model.ledger.count("linear solves");
+    return result;
+  }
+
+  template <int dim>
+  bool
+  StaticProblem<dim>::predict(VectorType &u, const double regularization)
+  {
+    VectorType lift(u), gradient(u), du(u);
+    model.space->constraints.distribute(lift);
+    lift -= u;
+    if (!(lift.linfty_norm() > 1e-14 * u.linfty_norm()))
+      return true;
+    evaluate(u, gradient, true);
+    model.mechanics->apply_tangent_with_lift(lift, du);
+    gradient += du;
+    gradient *= -1.;
+    du                        = 0.;
+    const LinearResult result = solve(gradient, du, 1e-6, regularization);
+    u += lift;
+    if (result.converged)
+      u += du;
+    return result.converged;
+  }
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  StaticProblem<dim>::reactions(const VectorType &u)
+  {
+    const VectorType            force = support_forces(u);
+    std::vector<Tensor<1, dim>> result(model.conditions.size());
+    for (unsigned int i = 0; i < model.conditions.size(); ++i)
+      {
+        const auto &condition = model.conditions[i];
+        for (unsigned int d = 0; d < dim; ++d)
+          if (condition.displacement[d] || condition.symmetry)
+            {
+              ComponentMask mask(dim, false);
+              mask.set(d, true);
+              const IndexSet dofs =
+                DoFTools::extract_boundary_dofs(model.space->dof_handler,
+                                                mask,
+                                                {condition.id});
+              for (const auto dof : dofs)
+                if (force.in_local_range(dof))
+                  result[i][d] += force[dof];
+            }
+        result[i] = Utilities::MPI::sum(result[i], model.communicator);
+      }
+    return result;
+  }
+
+  template class StaticProblem<2>;
+  template class StaticProblem<3>;
+} // namespace Signoton

@@ -1,0 +1,311 @@
+#include <signoton/drivers/checkpoint.h>
+#include <signoton/drivers/statics.h>
+
+#include <deal.II/distributed/solution_transfer.h>
+
+namespace Signoton
+{
+  template <int dim>
+  Statics<dim>::Statics(Model<dim> &model)
+    : model(model)
+    , problem(model)
+    , newton(model.newton)
+    , results(model)
+    , time(model.load_steps.start)
+    , step_size(model.load_steps.step_size)
+  {}
+
+  template <int dim>
+  void
+  Statics<dim>::setup_unknowns()
+  {
+    {
+      const auto timer = model.ledger.time("setup");
+      model.space->distribute_dofs();
+      model.space->update_constraints(model.conditions);
+      model.mechanics->reinit();
+    }
+    problem.reinit();
+    if (model.mechanics->history_width() > 0)
+      {
+        if (history_space)
+          history_space->distribute_dofs();
+        else
+          history_space =
+            std::make_unique<PointSpace<dim>>(*model.space,
+                                              model.mechanics->history_width());
+      }
+  }
+
+  template <int dim>
+  NewtonResult
+  Statics<dim>::solve(const double new_time,
+                      VectorType  &u,
+                      const bool   predict)
+  {
+    model.set_time(new_time);
+    problem.update_loads();
+    if (predict)
+      problem.predict(u, model.newton.regularization);
+    else
+      model.space->constraints.distribute(u);
+    const VectorType guess(u);
+    NewtonResult     result = newton.solve(problem, u);
+    record.newton_iterations += result.iterations();
+    if (result.converged)
+      return result;
+
+    // Continuation in the binders: each solution starts the next.
+    double weakest = 1.;
+    for (const auto &material : model.materials)
+      weakest = std::min(weakest, material.binder_ratio());
+    if (!(weakest < 0.1))
+      return result;
+    u = guess;
+    for (double ratio = 0.1; true; ratio = std::max(0.1 * ratio, weakest))
+      {
+        const bool is_last = ratio <= weakest;
+        if (is_last)
+          model.mechanics->set_binder_ratio();
+        else
+          model.mechanics->set_binder_ratio(ratio);
+        result = newton.solve(problem, u);
+        record.newton_iterations += result.iterations();
+        if (is_last || !result.converged)
+          break;
+      }
+    model.mechanics->set_binder_ratio();
+    return result;
+  }
+
+  template <int dim>
+  bool
+  Statics<dim>::refine(VectorType &trial)
+  {
+    auto         &space = *model.space;
+    bool          changes;
+    {
+      const auto              timer = model.ledger.time("error estimate");
+      const PointSpace<dim>   points(space, dim * (dim + 1) / 2);
+      VectorType              stress = points.make_relevant_vector();
+      model.mechanics->stress_field(trial, points, stress);
+      stress.update_ghost_values();
+      std::map<types::material_id, double> shear_modulus;
+      for (const auto &material : model.materials)
+        shear_modulus[material.id] = material.elasticity().shear;
+      Vector<float> indicators = Refinement::traction_jumps(
+        space, points, stress, model.conditions, shear_modulus);
+      double sum = 0.;
+      for (const float value : indicators)
+        sum += value;
+      record.estimated_error =
+        std::sqrt(Utilities::MPI::sum(sum, model.communicator));
+
+      const auto averages = model.mechanics->cell_averages(trial);
+      std::vector<unsigned int> region;
+      std::vector<bool>         mixed;
+      for (const auto &average : averages)
+        {
+          region.push_back(average.region);
+          mixed.push_back(average.mixed);
+        }
+      changes = model.refinement.mark(space, indicators, region, mixed);
+    }
+    if (changes)
+      transfer(trial);
+    return changes;
+  }
+
+  template <int dim>
+  void
+  Statics<dim>::transfer(VectorType &trial)
+  {
+    auto       &space  = *model.space;
+    const double stored_before =
+      model.mechanics->energy_balance(displacement).stored;
+
+    VectorType old_displacement = space.make_relevant_vector(),
+               old_trial        = space.make_relevant_vector(), old_history;
+    old_displacement.copy_locally_owned_data_from(displacement);
+    old_trial.copy_locally_owned_data_from(trial);
+    old_displacement.update_ghost_values();
+    old_trial.update_ghost_values();
+    parallel::distributed::SolutionTransfer<dim, VectorType> move(
+      space.dof_handler);
+    std::unique_ptr<parallel::distributed::SolutionTransfer<dim, VectorType>>
+      move_history;
+
+    {
+      const auto timer = model.ledger.time("mesh and transfer");
+      space.mesh.prepare_coarsening_and_refinement();
+      move.prepare_for_coarsening_and_refinement(
+        std::vector<const VectorType *>{&old_displacement, &old_trial});
+      if (history_space)
+        {
+          old_history = history_space->make_relevant_vector();
+          model.mechanics->save_history(*history_space, old_history);
+          old_history.update_ghost_values();
+          move_history = std::make_unique<
+            parallel::distributed::SolutionTransfer<dim, VectorType>>(
+            history_space->dof_handler);
+          move_history->prepare_for_coarsening_and_refinement(old_history);
+        }
+      space.mesh.execute_coarsening_and_refinement();
+    }
+    const double trial_time = time + record.step_size;
+    model.set_time(time);
+    setup_unknowns();
+    {
+      const auto timer = model.ledger.time("mesh and transfer");
+      model.mechanics->initialize_vector(displacement);
+      model.mechanics->initialize_vector(trial);
+      std::vector<VectorType *> moved{&displacement, &trial};
+      move.interpolate(moved);
+      space.constraints.distribute(displacement);
+      if (history_space)
+        {
+          VectorType history = history_space->make_relevant_vector();
+          move_history->interpolate(history);
+          model.mechanics->load_history(*history_space, history);
+        }
+    }
+    // back to the admissible set, at fixed strain
+    const auto timer = model.ledger.time("constitutive update");
+    VectorType force(displacement);
+    model.mechanics->internal_force(displacement, force, false);
+    model.mechanics->commit();
+    const double stored_after =
+      model.mechanics->energy_balance(displacement).stored;
+    record.transfer_drift += stored_after - stored_before;
+    mesh_force = problem.internal_force_of_mesh(displacement);
+    model.set_time(trial_time);
+  }
+
+  template <int dim>
+  bool
+  Statics<dim>::advance()
+  {
+    const LoadSteps &steps = model.load_steps;
+    bool             cut   = false;
+    while (true)
+      {
+        // land exactly on the end, and avoid a sliver of a last step
+        double dt = std::min(step_size, steps.end - time);
+        if (time + 1.001 * dt >= steps.end)
+          dt = steps.end - time;
+        record           = StepRecord();
+        record.step_size = dt;
+
+        VectorType trial(displacement);
+        last_result = solve(time + dt, trial, true);
+        const unsigned int cycles =
+          model.refinement.cycles(results.n_accepted() + 1);
+        for (unsigned int cycle = 0; cycle < cycles && last_result.converged;
+             ++cycle)
+          {
+            if (!refine(trial))
+              break;
+            results.cycle_line(cycle + 1, last_result, record);
+            last_result = solve(time + dt, trial, false);
+          }
+        if (last_result.converged)
+          {
+            accept(trial, dt);
+            if (cut)
+              step_size = std::min(steps.step_size, 1.5 * dt);
+            else if (last_result.iterations() <= steps.easy_iterations)
+              step_size = std::min(steps.maximum_step_size,
+                                   std::max(step_size * steps.growth,
+                                            std::min(steps.step_size,
+                                                     1.5 * step_size)));
+            return true;
+          }
+        results.failed_line(time + dt, last_result);
+        step_size = 0.5 * dt;
+        cut       = true;
+        if (step_size < steps.minimum_step_size)
+          return false;
+      }
+  }
+
+  template <int dim>
+  void
+  Statics<dim>::accept(const VectorType &trial, const double dt)
+  {
+    const auto timer = model.ledger.time("results");
+    // the trial history must be that of the converged iterate
+    VectorType force(trial);
+    record.balance   = model.mechanics->energy_balance(trial);
+    VectorType new_force = problem.internal_force_of_mesh(trial);
+    VectorType increment(trial);
+    increment -= displacement;
+    mesh_force += new_force;
+    record.external_work = 0.5 * (mesh_force * increment);
+    record.reactions     = {};
+    for (const auto &reaction : problem.reactions(trial))
+      for (unsigned int d = 0; d < dim; ++d)
+        record.reactions.push_back(reaction[d]);
+    model.mechanics->commit();
+    displacement = trial;
+    mesh_force   = new_force;
+    time += dt;
+    if (time + 1e-12 * std::abs(model.load_steps.end) > model.load_steps.end)
+      time = model.load_steps.end;
+    record.time = time;
+  }
+
+  template <int dim>
+  ExitStatus
+  Statics<dim>::run(const std::string &resume_directory)
+  {
+    model.set_time(time);
+    if (resume_directory.empty())
+      {
+        setup_unknowns();
+        model.mechanics->initialize_vector(displacement);
+        model.space->constraints.distribute(displacement);
+      }
+    else
+      {
+        Checkpoint<dim> checkpoint(model, resume_directory);
+        checkpoint.load_mesh();
+        time      = checkpoint.number("time");
+        step_size = checkpoint.number("step size");
+        model.set_time(time);
+        setup_unknowns();
+        model.mechanics->initialize_vector(displacement);
+        checkpoint.load_fields(history_space.get(), displacement);
+        model.space->constraints.distribute(displacement);
+        results.resume(checkpoint);
+      }
+    results.start(time);
+    mesh_force = problem.internal_force_of_mesh(displacement);
+
+    while (time < model.load_steps.end)
+      {
+        if (!advance())
+          {
+            results.finish(displacement, time);
+            results.no_equilibrium(time, step_size, last_result);
+            return ExitStatus::no_equilibrium;
+          }
+        const bool is_last = !(time < model.load_steps.end);
+        results.step(displacement, record, last_result, is_last);
+        const unsigned int every = model.output.checkpoint_every;
+        if (every > 0 && (is_last || results.n_accepted() % every == 0))
+          {
+            const auto      timer = model.ledger.time("output");
+            Checkpoint<dim> checkpoint(model, results.checkpoint_directory());
+            checkpoint.set("time", time);
+            checkpoint.set("step size", step_size);
+            results.save(checkpoint);
+            checkpoint.write(history_space.get(), displacement);
+          }
+      }
+    results.finish(displacement, time);
+    return ExitStatus::completed;
+  }
+
+  template class Statics<2>;
+  template class Statics<3>;
+} // namespace Signoton

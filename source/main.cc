@@ -1,0 +1,130 @@
+#include <signoton/scene/scene.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+namespace
+{
+  using namespace Signoton;
+
+  const char *const help =
+    R"(Signoton: statics of materials that resist tension and compression differently
+
+  signoton SCENE.prm                 run a scene
+  signoton --explain SCENE.prm       equations, effects on and off with their
+                                     bytes, memory forecast; no run
+  signoton --validate SCENE.prm      build everything, run nothing; the exit
+                                     status says whether it would start
+  signoton --template NAME           print a commented parameter file (statics)
+  signoton --resume DIRECTORY        go on from the checkpoint in an output
+                                     directory, on any number of ranks
+  signoton --set 'Section/Key=value' override one entry; may be repeated
+  signoton --output DIRECTORY        write results there
+  signoton --help, --version
+  mpirun -np N signoton SCENE.prm    the same on N ranks
+
+Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
+4 results could not be written.
+)";
+
+  /** What main() does for arguments that need no scene; false for others. */
+  bool
+  handle_information(const std::vector<std::string> &arguments,
+                     const bool                      print)
+  {
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+      {
+        std::string text;
+        if (arguments[i] == "--help" || arguments[i] == "-h")
+          text = help;
+        else if (arguments[i] == "--version")
+          text = "Signoton " SIGNOTON_VERSION ", deal.II " DEAL_II_PACKAGE_VERSION
+                 "\n";
+        else if (arguments[i] == "--template")
+          text = scene_template(i + 1 < arguments.size() ? arguments[i + 1] :
+                                                           "");
+        else
+          continue;
+        if (print)
+          std::cout << text << std::flush;
+        return true;
+      }
+    return false;
+  }
+
+  Options
+  parse(const std::vector<std::string> &arguments)
+  {
+    Options    options;
+    const auto refuse = [](const std::string &found,
+                           const std::string &expected) {
+      throw UserError("command line", found, expected, "'signoton --help'");
+    };
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+      {
+        const std::string &word = arguments[i];
+        const auto         next = [&]() -> std::string {
+          if (i + 1 >= arguments.size())
+            refuse("'" + word + "' at the end", "a value after it");
+          return arguments[++i];
+        };
+        if (word == "--explain")
+          options.action = Options::Action::explain;
+        else if (word == "--validate")
+          options.action = Options::Action::validate;
+        else if (word == "--set")
+          options.overrides.push_back(next());
+        else if (word == "--output")
+          options.output_directory = next();
+        else if (word == "--resume")
+          {
+            const std::string directory = next();
+            options.scene_file          = directory + "/resolved.prm";
+            options.output_directory    = directory;
+            options.resume_directory    = directory + "/checkpoint";
+          }
+        else if (word.rfind("-", 0) == 0)
+          refuse("unknown option '" + word + "'",
+                 "one of --explain, --validate, --template, --resume, --set, "
+                 "--output, --help, --version");
+        else if (!options.scene_file.empty())
+          refuse("a second scene '" + word + "'", "one scene file");
+        else
+          options.scene_file = word;
+      }
+    if (options.scene_file.empty())
+      refuse("no scene file", "signoton SCENE.prm");
+    return options;
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool is_root =
+    Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  try
+    {
+      const std::vector<std::string> arguments(argv + 1, argv + argc);
+      if (handle_information(arguments, is_root))
+        return 0;
+      return static_cast<int>(run_scene(MPI_COMM_WORLD, parse(arguments)));
+    }
+  catch (const UserError &error)
+    {
+      if (is_root)
+        std::cerr << "\nSignoton cannot go on.\n" << error.what() << std::flush;
+      return static_cast<int>(error.status);
+    }
+  catch (const std::exception &error)
+    {
+      std::cerr << "\nSignoton failed on rank "
+                << Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) << ":\n"
+                << error.what() << std::endl;
+      if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+        MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitStatus::failure));
+      return static_cast<int>(ExitStatus::failure);
+    }
+}

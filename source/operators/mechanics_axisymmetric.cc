@@ -1,0 +1,7 @@
+#include "mechanics_kernel.templates.h"
+
+namespace Signoton
+{
+  template class MechanicsKernel<Axisymmetric, 1>;
+  template class MechanicsKernel<Axisymmetric, 2>;
+} // namespace Signoton

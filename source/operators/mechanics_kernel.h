@@ -1,0 +1,190 @@
+#ifndef signoton_operators_mechanics_kernel_h
+#define signoton_operators_mechanics_kernel_h
+
+#include <signoton/operators/mechanics.h>
+#include <signoton/state/point_history.h>
+#include <signoton/tensors/embedding.h>
+#include <signoton/tensors/lanes.h>
+
+#include <deal.II/matrix_free/fe_evaluation.h>
+#include <deal.II/matrix_free/matrix_free.h>
+#include <deal.II/matrix_free/tools.h>
+
+#include <functional>
+
+namespace Signoton
+{
+  /**
+   * Mechanics for one embedding and degree. See Mechanics for what its
+   * functions do; here is how.
+   *
+   * Cells of one material form runs of cell batches; std::visit picks the law
+   * once a run. Quadrature is Gauss with degree+1 points a direction.
+   */
+  template <typename Embedding, int degree>
+  class MechanicsKernel : public Mechanics<Embedding::dim>
+  {
+  public:
+    static constexpr int dim = Embedding::dim;
+
+    using Number = VectorizedArray<double>;
+    using Cell   = FEEvaluation<dim, degree, degree + 1, dim, double>;
+    using Data   = MatrixFree<dim, double>;
+    using Range  = std::pair<unsigned int, unsigned int>;
+
+    MechanicsKernel(const Space<dim>                      &space,
+                    const std::vector<Rheology::Material> &materials);
+
+    void
+    reinit() override;
+    void
+    set_binder_ratio(const std::optional<double> &ratio) override;
+    void
+    initialize_vector(VectorType &vector) const override;
+    double
+    internal_force(const VectorType &displacement,
+                   VectorType       &force,
+                   const bool        with_tangent) override;
+    void
+    reactions(const VectorType &displacement, VectorType &force) override;
+    void
+    apply_tangent(const VectorType &increment,
+                  VectorType       &force) const override;
+    void
+    apply_tangent_with_lift(const VectorType &increment,
+                            VectorType       &force) const override;
+    void
+    assemble(TrilinosWrappers::SparseMatrix &matrix,
+             const double                    regularization) override;
+    void
+    commit() override;
+    EnergyBalance
+    energy_balance(const VectorType &displacement) override;
+    std::vector<CellAverages>
+    cell_averages(const VectorType &displacement) override;
+    void
+    stress_field(const VectorType      &displacement,
+                 const PointSpace<dim> &points,
+                 VectorType            &field) override;
+    unsigned int
+    history_width() const override;
+    void
+    save_history(const PointSpace<dim> &points, VectorType &field) override;
+    void
+    load_history(const PointSpace<dim> &points,
+                 const VectorType      &field) override;
+    typename Mechanics<dim>::Memory
+    memory() const override;
+
+  private:
+    static constexpr unsigned int n_tensor_entries =
+      Embedding::tensor_entries.size();
+
+    /** Index in the MatrixFree data of the two sets of constraints. */
+    enum DofIndex : unsigned int
+    {
+      all_constraints  = 0,
+      mesh_constraints = 1
+    };
+
+    /** What a sweep does with the response at each point. */
+    struct Point
+    {
+      unsigned int                       batch;
+      unsigned int                       q;
+      Number                             weight; ///< volume of the point in m^3
+      const Rheology::Response<Number>  &response;
+      const Tensor2<Number>             *plastic_strain; ///< or nullptr
+    };
+    using Visitor = std::function<void(const Point &)>;
+
+    void
+    find_materials();
+
+    /** Unknowns of the point space on the cell in a lane of a batch. */
+    void
+    point_dofs(const PointSpace<dim>                &points,
+               const unsigned int                    batch,
+               const unsigned int                    lane,
+               std::vector<types::global_dof_index> &dofs) const;
+
+    template <typename Law>
+    static constexpr unsigned int
+    width()
+    {
+      return Law::n_tensors * n_tensor_entries + Law::n_scalars;
+    }
+
+    template <typename Law>
+    static Rheology::History<Law, Number>
+    read_history(const Number *values);
+    template <typename Law>
+    static void
+    write_history(const Rheology::History<Law, Number> &history,
+                  Number                               *values);
+
+    Tensor2<Number>
+    strain(const Cell &cell, const unsigned int q) const;
+    void
+    submit(Cell                  &cell,
+           const unsigned int     q,
+           const Tensor2<Number> &stress) const;
+    Number
+    weight(const Cell &cell, const unsigned int q) const;
+
+    /** Call `action(law, run)` for every run of cells of one material. */
+    template <typename Action>
+    void
+    for_each_run(const Range &range, const Action &action) const;
+
+    /** The nonlinear cell operation: evaluate, update, integrate. */
+    template <unsigned int request>
+    double
+    sweep(const VectorType &displacement,
+          VectorType       &force,
+          const DofIndex    dof_index);
+    template <unsigned int request, typename Law>
+    double
+    update_run(const Law        &law,
+               Cell             &cell,
+               const Range      &run,
+               const VectorType &displacement,
+               VectorType       &force);
+
+    /** Everything a law knows, point by point, without integration. */
+    void
+    visit_points(const VectorType &displacement, const Visitor &visitor);
+    template <typename Law>
+    void
+    visit_run(const Law        &law,
+              Cell             &cell,
+              const Range      &run,
+              const VectorType &displacement,
+              const Visitor    &visitor);
+
+    /** The linear cell operation on values that have been read. */
+    void
+    tangent_operation(Cell &cell, const double regularization) const;
+    void
+    tangent_loop(const VectorType &increment,
+                 VectorType       &force,
+                 const bool        with_lift) const;
+
+    const Space<dim>                      &space;
+    const std::vector<Rheology::Material> &materials;
+    std::vector<Rheology::Law>             laws;
+    std::vector<unsigned int>              material_of_id;
+
+    Data                                   data;
+    std::vector<unsigned int>              material_of_batch;
+    /** Elastic tangents by material: regularization, and what linear
+     *  materials have instead of a tangent at every point. */
+    std::vector<std::array<Number, n_tangent_entries<Embedding>>>
+                           elastic_tangents;
+    PointHistory           history;
+    AlignedVector<Number>  tangents;
+    std::vector<std::size_t> tangent_offset;
+  };
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,631 @@
+#ifndef signoton_operators_mechanics_kernel_templates_h
+#define signoton_operators_mechanics_kernel_templates_h
+
+#include "mechanics_kernel.h"
+
+namespace Signoton
+{
+  template <typename Embedding, int degree>
+  MechanicsKernel<Embedding, degree>::MechanicsKernel(
+    const Space<dim>                      &space,
+    const std::vector<Rheology::Material> &materials)
+    : space(space)
+    , materials(materials)
+  {
+    set_binder_ratio({});
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      {
+        if (materials[m].id >= material_of_id.size())
+          material_of_id.resize(materials[m].id + 1,
+                                numbers::invalid_unsigned_int);
+        material_of_id[materials[m].id] = m;
+        elastic_tangents.emplace_back();
+        pack_tangent<Embedding>(
+          materials[m].elasticity().template tensor<Number>(),
+          elastic_tangents.back().data());
+      }
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::set_binder_ratio(
+    const std::optional<double> &ratio)
+  {
+    laws.clear();
+    for (const auto &material : materials)
+      laws.push_back(material.law(
+        ratio ? std::optional<double>(
+                  std::max(*ratio, material.binder_ratio())) :
+                ratio));
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::reinit()
+  {
+    typename Data::AdditionalData options;
+    options.tasks_parallel_scheme = Data::AdditionalData::none;
+    options.mapping_update_flags  = update_gradients | update_JxW_values;
+    if constexpr (Embedding::axisymmetric)
+      options.mapping_update_flags |= update_values | update_quadrature_points;
+    // lanes of a batch share a material
+    options.cell_vectorization_categories_strict = true;
+    options.cell_vectorization_category.resize(space.mesh.n_active_cells(), 0);
+    for (const auto &cell : space.mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        options.cell_vectorization_category[cell->active_cell_index()] =
+          material_of_id[cell->material_id()];
+    data.reinit(space.mapping,
+                std::vector<const DoFHandler<dim> *>{&space.dof_handler,
+                                                     &space.dof_handler},
+                std::vector<const AffineConstraints<double> *>{
+                  &space.constraints, &space.mesh_constraints},
+                std::vector<QGauss<1>>{QGauss<1>(degree + 1)},
+                options);
+    find_materials();
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::find_materials()
+  {
+    const unsigned int        n_batches = data.n_cell_batches();
+    const unsigned int        n_points  = Utilities::pow(degree + 1, dim);
+    std::vector<unsigned int> widths(n_batches);
+    material_of_batch.resize(n_batches);
+    tangent_offset.assign(n_batches + 1, 0);
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
+      {
+        const unsigned int material =
+          material_of_id[data.get_cell_iterator(batch, 0)->material_id()];
+        material_of_batch[batch] = material;
+        widths[batch]            = std::visit(
+          [](const auto &law) {
+            return width<std::decay_t<decltype(law)>>();
+          },
+          laws[material]);
+        const bool linear =
+          std::holds_alternative<Rheology::Elastic>(laws[material]);
+        tangent_offset[batch + 1] =
+          tangent_offset[batch] +
+          (linear ? 0 : n_points * n_tangent_entries<Embedding>);
+      }
+    history.reinit(widths, n_points);
+    tangents.resize(0);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::point_dofs(
+    const PointSpace<dim>                &points,
+    const unsigned int                    batch,
+    const unsigned int                    lane,
+    std::vector<types::global_dof_index> &dofs) const
+  {
+    const auto cell = data.get_cell_iterator(batch, lane);
+    typename DoFHandler<dim>::active_cell_iterator(&space.mesh,
+                                                   cell->level(),
+                                                   cell->index(),
+                                                   &points.dof_handler)
+      ->get_dof_indices(dofs);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::initialize_vector(
+    VectorType &vector) const
+  {
+    data.initialize_dof_vector(vector, all_constraints);
+  }
+
+  template <typename Embedding, int degree>
+  template <typename Law>
+  Rheology::History<
+    Law,
+    typename MechanicsKernel<Embedding, degree>::Number>
+  MechanicsKernel<Embedding, degree>::read_history(const Number *values)
+  {
+    Rheology::History<Law, Number> result;
+    for (auto &tensor : result.tensors)
+      for (const unsigned int entry : Embedding::tensor_entries)
+        tensor.access_raw_entry(entry) = *values++;
+    for (auto &scalar : result.scalars)
+      scalar = *values++;
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  template <typename Law>
+  void
+  MechanicsKernel<Embedding, degree>::write_history(
+    const Rheology::History<Law, Number> &state,
+    Number                               *values)
+  {
+    for (const auto &tensor : state.tensors)
+      for (const unsigned int entry : Embedding::tensor_entries)
+        *values++ = tensor.access_raw_entry(entry);
+    for (const auto &scalar : state.scalars)
+      *values++ = scalar;
+  }
+
+  template <typename Embedding, int degree>
+  Tensor2<typename MechanicsKernel<Embedding, degree>::Number>
+  MechanicsKernel<Embedding, degree>::strain(const Cell        &cell,
+                                             const unsigned int q) const
+  {
+    Tensor2<Number> result = to_3d(cell.get_symmetric_gradient(q));
+    if constexpr (Embedding::axisymmetric)
+      result.access_raw_entry(2) =
+        cell.get_value(q)[0] / cell.quadrature_point(q)[0];
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::submit(
+    Cell                  &cell,
+    const unsigned int     q,
+    const Tensor2<Number> &stress) const
+  {
+    if constexpr (Embedding::axisymmetric)
+      {
+        const Number        around = 2. * numbers::PI * cell.quadrature_point(q)[0];
+        Tensor<1, 2, Number> hoop;
+        hoop[0] = 2. * numbers::PI * stress.access_raw_entry(2);
+        cell.submit_value(hoop, q);
+        cell.submit_symmetric_gradient(around * to_mesh<dim>(stress), q);
+      }
+    else
+      cell.submit_symmetric_gradient(to_mesh<dim>(stress), q);
+  }
+
+  template <typename Embedding, int degree>
+  typename MechanicsKernel<Embedding, degree>::Number
+  MechanicsKernel<Embedding, degree>::weight(const Cell        &cell,
+                                             const unsigned int q) const
+  {
+    if constexpr (Embedding::axisymmetric)
+      return 2. * numbers::PI * cell.quadrature_point(q)[0] * cell.JxW(q);
+    else
+      return cell.JxW(q);
+  }
+
+  /** What has to be evaluated, and integrated, in a cell. */
+  template <typename Embedding>
+  const EvaluationFlags::EvaluationFlags cell_flags =
+    Embedding::axisymmetric ?
+      EvaluationFlags::values | EvaluationFlags::gradients :
+      EvaluationFlags::gradients;
+
+  template <typename Embedding, int degree>
+  template <typename Action>
+  void
+  MechanicsKernel<Embedding, degree>::for_each_run(const Range  &range,
+                                                   const Action &action) const
+  {
+    unsigned int begin = range.first;
+    while (begin < range.second)
+      {
+        unsigned int end = begin + 1;
+        while (end < range.second &&
+               material_of_batch[end] == material_of_batch[begin])
+          ++end;
+        std::visit([&](const auto &law) { action(law, Range(begin, end)); },
+                   laws[material_of_batch[begin]]);
+        begin = end;
+      }
+  }
+
+  template <typename Embedding, int degree>
+  template <unsigned int request>
+  double
+  MechanicsKernel<Embedding, degree>::sweep(const VectorType &displacement,
+                                            VectorType       &force,
+                                            const DofIndex    dof_index)
+  {
+    double sum = 0.;
+    data.template cell_loop<VectorType, VectorType>(
+      [&](const auto &, auto &dst, const auto &src, const Range &range) {
+        Cell cell(data, dof_index);
+        for_each_run(range, [&](const auto &law, const Range &run) {
+          sum += update_run<request>(law, cell, run, src, dst);
+        });
+      },
+      force,
+      displacement,
+      true);
+    return Utilities::MPI::sum(sum, space.communicator);
+  }
+
+  template <typename Embedding, int degree>
+  template <unsigned int request, typename Law>
+  double
+  MechanicsKernel<Embedding, degree>::update_run(
+    const Law        &law,
+    Cell             &cell,
+    const Range      &run,
+    const VectorType &displacement,
+    VectorType       &force)
+  {
+    constexpr unsigned int       n_tangent = n_tangent_entries<Embedding>;
+    constexpr bool               linear =
+      std::is_same_v<Law, Rheology::Elastic>;
+    Rheology::Response<Number>     response;
+    Rheology::History<Law, Number> next;
+    double                         sum = 0.;
+    for (unsigned int batch = run.first; batch < run.second; ++batch)
+      {
+        cell.reinit(batch);
+        cell.read_dof_values_plain(displacement);
+        cell.evaluate(cell_flags<Embedding>);
+        Number potential = 0.;
+        for (unsigned int q = 0; q < cell.n_q_points; ++q)
+          {
+            law.template update<request>(
+              strain(cell, q),
+              read_history<Law>(history.accepted(batch, q)),
+              next,
+              response);
+            write_history<Law>(next, history.trial(batch, q));
+            if constexpr ((request & Rheology::tangent) && !linear)
+              pack_tangent<Embedding>(response.tangent,
+                                      tangents.data() + tangent_offset[batch] +
+                                        q * n_tangent);
+            if constexpr (request & Rheology::potential)
+              potential += weight(cell, q) * response.potential;
+            submit(cell, q, response.stress);
+          }
+        cell.integrate(cell_flags<Embedding>);
+        cell.distribute_local_to_global(force);
+        if constexpr (request & Rheology::potential)
+          for (unsigned int i = 0; i < data.n_active_entries_per_cell_batch(batch);
+               ++i)
+            sum += potential[i];
+      }
+    return sum;
+  }
+
+  template <typename Embedding, int degree>
+  double
+  MechanicsKernel<Embedding, degree>::internal_force(
+    const VectorType &displacement,
+    VectorType       &force,
+    const bool        with_tangent)
+  {
+    if (!with_tangent)
+      return sweep<Rheology::potential>(displacement, force, all_constraints);
+    if (tangents.size() != tangent_offset.back())
+      tangents.resize(tangent_offset.back());
+    return sweep<Rheology::potential | Rheology::tangent>(displacement,
+                                                          force,
+                                                          all_constraints);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::reactions(
+    const VectorType &displacement,
+    VectorType       &force)
+  {
+    sweep<Rheology::stress>(displacement, force, mesh_constraints);
+  }
+
+  template <typename Embedding, int degree>
+  template <typename Law>
+  void
+  MechanicsKernel<Embedding, degree>::visit_run(
+    const Law        &law,
+    Cell             &cell,
+    const Range      &run,
+    const VectorType &displacement,
+    const Visitor    &visitor)
+  {
+    Rheology::Response<Number>     response;
+    Rheology::History<Law, Number> next;
+    for (unsigned int batch = run.first; batch < run.second; ++batch)
+      {
+        cell.reinit(batch);
+        cell.read_dof_values_plain(displacement);
+        cell.evaluate(cell_flags<Embedding>);
+        for (unsigned int q = 0; q < cell.n_q_points; ++q)
+          {
+            law.template update<Rheology::energies>(
+              strain(cell, q),
+              read_history<Law>(history.accepted(batch, q)),
+              next,
+              response);
+            const Tensor2<Number> *plastic = nullptr;
+            if constexpr (Law::n_tensors > 0)
+              plastic = &next.tensors[0];
+            visitor({batch, q, weight(cell, q), response, plastic});
+          }
+      }
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::visit_points(
+    const VectorType &displacement,
+    const Visitor    &visitor)
+  {
+    VectorType unused; // nothing is integrated
+    initialize_vector(unused);
+    data.template cell_loop<VectorType, VectorType>(
+      [&](const auto &, auto &, const auto &src, const Range &range) {
+        Cell cell(data, all_constraints);
+        for_each_run(range, [&](const auto &law, const Range &run) {
+          visit_run(law, cell, run, src, visitor);
+        });
+      },
+      unused,
+      displacement);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::tangent_operation(
+    Cell        &cell,
+    const double regularization) const
+  {
+    const unsigned int batch   = cell.get_current_cell_index();
+    const auto        &elastic = elastic_tangents[material_of_batch[batch]];
+    const bool linear = tangent_offset[batch] == tangent_offset[batch + 1];
+    cell.evaluate(cell_flags<Embedding>);
+    for (unsigned int q = 0; q < cell.n_q_points; ++q)
+      {
+        const Tensor2<Number> increment = strain(cell, q);
+        const Number         *packed =
+          linear ? elastic.data() :
+                            tangents.data() + tangent_offset[batch] +
+                     q * n_tangent_entries<Embedding>;
+        Tensor2<Number> stress =
+          apply_packed_tangent<Embedding>(packed, increment);
+        if (regularization > 0.)
+          stress += Number(regularization) *
+                    apply_packed_tangent<Embedding>(elastic.data(), increment);
+        submit(cell, q, stress);
+      }
+    cell.integrate(cell_flags<Embedding>);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::tangent_loop(
+    const VectorType &increment,
+    VectorType       &force,
+    const bool        with_lift) const
+  {
+    data.template cell_loop<VectorType, VectorType>(
+      [&](const auto &, auto &dst, const auto &src, const Range &range) {
+        Cell cell(data, all_constraints);
+        for (unsigned int batch = range.first; batch < range.second; ++batch)
+          {
+            cell.reinit(batch);
+            if (with_lift)
+              cell.read_dof_values_plain(src);
+            else
+              cell.read_dof_values(src);
+            tangent_operation(cell, 0.);
+            cell.distribute_local_to_global(dst);
+          }
+      },
+      force,
+      increment,
+      true);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::apply_tangent(
+    const VectorType &increment,
+    VectorType       &force) const
+  {
+    tangent_loop(increment, force, false);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::apply_tangent_with_lift(
+    const VectorType &increment,
+    VectorType       &force) const
+  {
+    tangent_loop(increment, force, true);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::assemble(
+    TrilinosWrappers::SparseMatrix &matrix,
+    const double                    regularization)
+  {
+    matrix = 0.;
+    MatrixFreeTools::
+      compute_matrix<dim, degree, degree + 1, dim, double, Number>(
+        data, space.constraints, matrix, [&](Cell &cell) {
+          tangent_operation(cell, regularization);
+        });
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::commit()
+  {
+    history.commit();
+  }
+
+  template <typename Embedding, int degree>
+  EnergyBalance
+  MechanicsKernel<Embedding, degree>::energy_balance(
+    const VectorType &displacement)
+  {
+    std::array<double, 3 + Rheology::n_regions> sums{};
+    visit_points(displacement, [&](const Point &point) {
+      for (unsigned int i = 0;
+           i < data.n_active_entries_per_cell_batch(point.batch);
+           ++i)
+        {
+          const double volume = point.weight[i];
+          sums[0] += volume * point.response.stored_energy[i];
+          sums[1] += volume * point.response.dissipation[i];
+          sums[2] += volume;
+          sums[3 + static_cast<unsigned int>(point.response.region[i])] +=
+            volume;
+        }
+    });
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        space.communicator,
+                        ArrayView<double>(sums.data(), sums.size()));
+    EnergyBalance balance;
+    balance.stored      = sums[0];
+    balance.dissipation = sums[1];
+    for (unsigned int region = 0; region < Rheology::n_regions; ++region)
+      balance.region_share[region] = sums[3 + region] / sums[2];
+    return balance;
+  }
+
+  template <typename Embedding, int degree>
+  std::vector<CellAverages>
+  MechanicsKernel<Embedding, degree>::cell_averages(
+    const VectorType &displacement)
+  {
+    std::vector<CellAverages> result(space.mesh.n_active_cells());
+    std::vector<double>       volume(result.size(), 0.);
+    visit_points(displacement, [&](const Point &point) {
+      for (unsigned int i = 0;
+           i < data.n_active_entries_per_cell_batch(point.batch);
+           ++i)
+        {
+          const auto cell =
+            data.get_cell_iterator(point.batch, i)->active_cell_index();
+          CellAverages      &average = result[cell];
+          const double       w       = point.weight[i];
+          const unsigned int region =
+            static_cast<unsigned int>(point.response.region[i]);
+          for (unsigned int c = 0; c < 6; ++c)
+            {
+              average.stress[c] +=
+                w * point.response.stress.access_raw_entry(c)[i];
+              average.contact_strain[c] +=
+                w * point.response.contact_strain.access_raw_entry(c)[i];
+              if (point.plastic_strain)
+                average.plastic_strain[c] +=
+                  w * point.plastic_strain->access_raw_entry(c)[i];
+            }
+          average.energy_density += w * point.response.stored_energy[i];
+          average.mixed |= volume[cell] > 0. && region != average.region;
+          average.region = std::max(average.region, region);
+          volume[cell] += w;
+        }
+    });
+    for (std::size_t cell = 0; cell < result.size(); ++cell)
+      if (volume[cell] > 0.)
+        {
+          for (unsigned int c = 0; c < 6; ++c)
+            {
+              result[cell].stress[c] /= volume[cell];
+              result[cell].contact_strain[c] /= volume[cell];
+              result[cell].plastic_strain[c] /= volume[cell];
+            }
+          result[cell].energy_density /= volume[cell];
+        }
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::stress_field(
+    const VectorType      &displacement,
+    const PointSpace<dim> &points,
+    VectorType            &field)
+  {
+    std::vector<types::global_dof_index> dofs(points.fe.n_dofs_per_cell());
+    visit_points(displacement, [&](const Point &point) {
+      const auto stress = to_mesh<dim>(point.response.stress);
+      for (unsigned int i = 0;
+           i < data.n_active_entries_per_cell_batch(point.batch);
+           ++i)
+        {
+          point_dofs(points, point.batch, i, dofs);
+          for (unsigned int c = 0; c < points.n_components; ++c)
+            field[dofs[points.cell_index(c, point.q)]] =
+              stress.access_raw_entry(c)[i];
+        }
+    });
+  }
+
+  template <typename Embedding, int degree>
+  unsigned int
+  MechanicsKernel<Embedding, degree>::history_width() const
+  {
+    unsigned int result = 0;
+    for (const auto &law : laws)
+      result = std::max(result,
+                        std::visit(
+                          [](const auto &l) {
+                            return width<std::decay_t<decltype(l)>>();
+                          },
+                          law));
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::save_history(
+    const PointSpace<dim> &points,
+    VectorType            &field)
+  {
+    std::vector<types::global_dof_index> dofs(points.fe.n_dofs_per_cell());
+    for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
+      for (unsigned int i = 0; i < data.n_active_entries_per_cell_batch(batch);
+           ++i)
+        {
+          point_dofs(points, batch, i, dofs);
+          for (unsigned int q = 0; q < space.quadrature.size(); ++q)
+            for (unsigned int c = 0; c < history.width(batch); ++c)
+              field[dofs[points.cell_index(c, q)]] =
+                history.accepted(batch, q)[c][i];
+        }
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::load_history(
+    const PointSpace<dim> &points,
+    const VectorType      &field)
+  {
+    std::vector<types::global_dof_index> dofs(points.fe.n_dofs_per_cell());
+    for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
+      {
+        const unsigned int n_tensor_values = std::visit(
+          [](const auto &law) {
+            return std::decay_t<decltype(law)>::n_tensors * n_tensor_entries;
+          },
+          laws[material_of_batch[batch]]);
+        for (unsigned int i = 0;
+             i < data.n_active_entries_per_cell_batch(batch);
+             ++i)
+          {
+            point_dofs(points, batch, i, dofs);
+            for (unsigned int q = 0; q < space.quadrature.size(); ++q)
+              for (unsigned int c = 0; c < history.width(batch); ++c)
+                {
+                  const double value = field[dofs[points.cell_index(c, q)]];
+                  history.accepted(batch, q)[c][i] =
+                    c < n_tensor_values ? value : std::max(value, 0.);
+                }
+          }
+      }
+  }
+
+  template <typename Embedding, int degree>
+  auto
+  MechanicsKernel<Embedding, degree>::memory() const ->
+    typename Mechanics<dim>::Memory
+  {
+    return {history.memory_consumption(),
+            tangents.size() * sizeof(Number),
+            data.memory_consumption()};
+  }
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,7 @@
+#include "mechanics_kernel.templates.h"
+
+namespace Signoton
+{
+  template class MechanicsKernel<PlaneStrain, 1>;
+  template class MechanicsKernel<PlaneStrain, 2>;
+} // namespace Signoton

@@ -1,0 +1,7 @@
+#include "mechanics_kernel.templates.h"
+
+namespace Signoton
+{
+  template class MechanicsKernel<Solid, 1>;
+  template class MechanicsKernel<Solid, 2>;
+} // namespace Signoton

@@ -1,0 +1,135 @@
+#include <signoton/scene/requirements.h>
+#include <signoton/tensors/embedding.h>
+
+#include <functional>
+#include <iomanip>
+#include <sstream>
+
+namespace Signoton
+{
+  namespace
+  {
+    template <int dim>
+    unsigned int
+    tangent_entries(const Space<dim> &space)
+    {
+      if constexpr (dim == 3)
+        return n_tangent_entries<Solid>;
+      else
+        return space.axisymmetric ? n_tangent_entries<Axisymmetric> :
+                                    n_tangent_entries<PlaneStrain>;
+    }
+
+    std::string
+    names_of(const std::vector<Rheology::Material>               &materials,
+             const std::function<bool(const Rheology::Material &)> &select)
+    {
+      std::vector<std::string> names;
+      for (const auto &material : materials)
+        if (select(material))
+          names.push_back(material.name);
+      return join(names, ", ");
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<Effect>
+  requirements(const Model<dim> &model)
+  {
+    const auto &materials = model.materials;
+    const auto  inelastic =
+      names_of(materials, [](const auto &m) { return !m.is_elastic(); });
+    const auto contact =
+      names_of(materials, [](const auto &m) { return m.has_cone(); });
+    const auto plastic =
+      names_of(materials, [](const auto &m) { return !m.is_reversible(); });
+    const auto binder = names_of(materials, [](const auto &m) {
+      return m.binder_ratio() < 1.;
+    });
+    const auto heavy =
+      names_of(materials, [](const auto &m) { return m.density > 0.; });
+    const bool gravity = model.gravity && !heavy.empty();
+    const bool adaptive =
+      model.refinement.cycles(1) > 0 || model.refinement.is_used_later();
+
+    const unsigned int number = sizeof(double);
+    return {
+      {"elasticity", true, "every material has a spring", 0},
+      {"rigid contact (no tension)",
+       !contact.empty(),
+       contact.empty() ? "no granular rheology" : "materials " + contact,
+       0},
+      {"consistent tangent",
+       !inelastic.empty(),
+       inelastic.empty() ? "all materials are linear" :
+                           "materials " + inelastic,
+       inelastic.empty() ? 0 : tangent_entries(*model.space) * number},
+      {"history",
+       !plastic.empty(),
+       plastic.empty() ? "no plastic hinge: the response is reversible" :
+                         "plastic hinge in " + plastic,
+       2 * model.mechanics->history_width() * number},
+      {"proportional binder",
+       !binder.empty(),
+       binder.empty() ? "no binder" : "materials " + binder,
+       0},
+      {"gravity",
+       gravity,
+       gravity                ? "Loads / Gravity on " + heavy :
+       model.gravity != nullptr ? "no material has a density" :
+                                "no Loads / Gravity",
+       0},
+      {"adaptive mesh",
+       adaptive,
+       adaptive ? "Refinement / Cycles" : "no Refinement / Cycles",
+       0},
+      {"inertia", false, "Analysis = statics", 0}};
+  }
+
+  template <int dim>
+  std::string
+  explain(const Model<dim> &model)
+  {
+    std::ostringstream out;
+    out << "Equations: find the displacement u that minimizes\n"
+           "  sum over the body of W_n(strain(u)) - work of the loads,\n"
+           "  strain = sym grad u, stress = dW_n/dstrain"
+        << (dim == 3 ? ", in three dimensions" :
+            model.space->axisymmetric ?
+                       ", rotationally symmetric about x = 0" :
+                       ", plane strain (the out-of-plane stress is computed)")
+        << ".\n\nMaterials:\n";
+    for (const auto &material : model.materials)
+      out << "  " << material.name << " (id " << material.id
+          << "): " << material.description() << "\n";
+
+    out << "\nEffect                      on   bytes/point  why\n";
+    unsigned int bytes = 0;
+    for (const auto &effect : requirements(model))
+      {
+        out << std::left << std::setw(28) << effect.name << std::setw(5)
+            << (effect.on ? "yes" : "no") << std::right << std::setw(11)
+            << effect.bytes_per_point << "  " << effect.why << "\n";
+        bytes += effect.bytes_per_point;
+      }
+    const double cells  = model.space->mesh.n_global_active_cells();
+    const double points = cells * model.space->quadrature.size();
+    const double n      = model.space->dof_handler.n_dofs();
+    // a row couples with the unknowns of the patch around a node, on average
+    const double row = dim * std::pow(model.space->degree == 1 ? 3. : 4., dim);
+    out << "\nUnknowns " << n << ", cells " << cells << ", points " << points
+        << "\nMemory forecast: points " << points * bytes / 1e6
+        << " MB, matrix " << 12. * n * row / 1e6
+        << " MB, vectors " << 20. * 8. * n / 1e6 << " MB\n";
+    return out.str();
+  }
+
+  template std::vector<Effect>
+  requirements<2>(const Model<2> &);
+  template std::vector<Effect>
+  requirements<3>(const Model<3> &);
+  template std::string
+  explain<2>(const Model<2> &);
+  template std::string
+  explain<3>(const Model<3> &);
+} // namespace Signoton

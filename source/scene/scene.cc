@@ -1,0 +1,332 @@
+#include <signoton/drivers/statics.h>
+#include <signoton/scene/requirements.h>
+#include <signoton/scene/scene.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <sstream>
+
+namespace Signoton
+{
+  template <int dim>
+  Scene<dim>::Scene(const MPI_Comm &communicator, const SceneFile &file)
+    : model(communicator)
+  {
+    model.file = file;
+    for (const auto &name : file.subsections({"Materials"}))
+      model.materials.emplace_back(name);
+    for (const auto &name : file.subsections({"Boundaries"}))
+      model.conditions.emplace_back(name);
+    add_parameters(handler);
+    file.apply_to(handler);
+    interpret();
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Title", title, "What the scene shows.");
+    prm.add_parameter("Dimension",
+                      dimension,
+                      "Dimension of the mesh, 2 or 3.",
+                      Patterns::Integer(2, 3));
+    prm.add_parameter("Embedding",
+                      embedding,
+                      "How a 2D mesh sits in space: plane strain, or "
+                      "axisymmetric with x the radius and y the axis.",
+                      Patterns::Selection(
+                        dim == 2 ? "plane strain|axisymmetric" : "solid"));
+    prm.add_parameter("Analysis",
+                      analysis,
+                      "statics: equilibrium along a load history.",
+                      Patterns::Selection("statics"));
+
+    model.geometry.add_parameters(prm);
+
+    prm.enter_subsection("Materials");
+    for (auto &material : model.materials)
+      {
+        prm.enter_subsection(material.name);
+        material.add_parameters(prm);
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+
+    prm.enter_subsection("Boundaries");
+    for (auto &condition : model.conditions)
+      {
+        prm.enter_subsection(condition.name);
+        condition.add_parameters(prm);
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+
+    prm.enter_subsection("Loads");
+    prm.add_parameter("Constants",
+                      constants_text,
+                      "Constants for all expressions of the scene: 'H = 10, "
+                      "q = 1e5'.");
+    prm.add_parameter("Gravity",
+                      gravity_text,
+                      "Acceleration in m/s^2 on all materials with a density, "
+                      "one expression per direction separated by ';'.");
+    prm.leave_subsection();
+
+    model.load_steps.add_parameters(prm);
+
+    prm.enter_subsection("Discretization");
+    prm.add_parameter("Degree",
+                      degree,
+                      "Polynomial degree of the displacement.",
+                      Patterns::Integer(1, 2));
+    prm.leave_subsection();
+
+    model.refinement.add_parameters(prm);
+    model.newton.add_parameters(prm);
+    model.linear_solver.add_parameters(prm);
+    model.output.add_parameters(prm);
+
+    prm.enter_subsection("Reference solution");
+    prm.add_parameter("Displacement",
+                      reference_text,
+                      "Exact displacement in m to measure the error against, "
+                      "one expression per direction separated by ';'.");
+    prm.leave_subsection();
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::interpret()
+  {
+    const SceneFile &file = model.file;
+    constants =
+      parse_constants(constants_text, file.where({"Loads"}, "Constants"));
+    const auto vector_function = [&](const std::string &text,
+                                     const std::string &where) {
+      return make_function<dim>(split_components(text, dim, where),
+                                constants,
+                                where);
+    };
+    if (model.materials.empty())
+      throw UserError(file.where({"Materials"}),
+                      "no material",
+                      "a subsection with the name of a material",
+                      "'subsection Materials', 'subsection sand', 'set "
+                      "Rheology = elastic', ...");
+    for (const auto &material : model.materials)
+      material.check(file);
+    if (!gravity_text.empty())
+      model.gravity =
+        vector_function(gravity_text, file.where({"Loads"}, "Gravity"));
+    if (!reference_text.empty())
+      model.reference =
+        vector_function(reference_text,
+                        file.where({"Reference solution"}, "Displacement"));
+    if (!(model.load_steps.end > model.load_steps.start))
+      throw UserError(file.where({"Load steps"}, "End time"),
+                      std::to_string(model.load_steps.end),
+                      "a time after 'Start time'",
+                      "pseudo-time grows from Start time to End time");
+
+    const std::string probes_at = file.where({"Output"}, "Probe points");
+    for (const auto &point :
+         Utilities::split_string_list(model.output.probe_text, ';'))
+      {
+        const auto coordinates = Utilities::split_string_list(point, ',');
+        if (coordinates.size() != dim)
+          throw UserError(probes_at,
+                          "'" + point + "'",
+                          std::to_string(dim) + " coordinates of each point",
+                          "separate coordinates by ',' and points by ';'");
+        const auto values = Utilities::string_to_double(coordinates);
+        Point<dim> p;
+        for (unsigned int d = 0; d < dim; ++d)
+          p[d] = values[d];
+        model.probes.push_back(p);
+      }
+
+    model.space = std::make_unique<Space<dim>>(model.communicator,
+                                               degree,
+                                               embedding == "axisymmetric");
+    std::ostringstream all;
+    handler.print_parameters(all, ParameterHandler::ShortText);
+    model.resolved_scene =
+      file.text() + "\n# All parameters, defaults included:\n#\n";
+    std::istringstream lines(all.str());
+    for (std::string line; std::getline(lines, line);)
+      model.resolved_scene += "# " + line + "\n";
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::check_materials() const
+  {
+    std::set<types::material_id> known;
+    for (const auto &material : model.materials)
+      if (!known.insert(material.id).second)
+        throw UserError(model.file.where({"Materials", material.name},
+                                         "Material id"),
+                        "material id " + std::to_string(material.id) +
+                          " for a second time",
+                        "one material for each id",
+                        "give the materials different ids");
+    unsigned int missing = 0;
+    for (const auto &cell : model.space->mesh.active_cell_iterators())
+      if (cell->is_locally_owned() && known.count(cell->material_id()) == 0)
+        missing = std::max(missing, cell->material_id() + 1);
+    missing = Utilities::MPI::max(missing, model.communicator);
+    if (missing > 0)
+      {
+        std::vector<std::string> ids;
+        for (const auto id : known)
+          ids.push_back(std::to_string(id));
+        throw UserError(model.file.where({"Materials"}),
+                        "cells of the mesh with material id " +
+                          std::to_string(missing - 1) +
+                          ", which no material has",
+                        "a material for every id of the mesh; known are " +
+                          join(ids, ", "),
+                        "add a material with 'set Material id = " +
+                          std::to_string(missing - 1) + "'");
+      }
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::check_supports() const
+  {
+    const auto &space = *model.space;
+    const auto  free  = free_rigid_motions(space.mapping,
+                                         space.dof_handler,
+                                         space.constraints,
+                                         space.axisymmetric);
+    if (!free.empty())
+      throw UserError(model.file.where({"Boundaries"}),
+                      "the body can move freely: " + join(free, "; "),
+                      "supports that prevent every rigid motion",
+                      "add 'Symmetry' or 'Displacement' at some boundary");
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::build()
+  {
+    auto &space = *model.space;
+    {
+      const auto timer = model.ledger.time("setup");
+      space.boundary   = model.geometry.create(model.file, space.mesh);
+    }
+    check_materials();
+    for (auto &condition : model.conditions)
+      condition.initialize(model.file,
+                           space.boundary.names,
+                           constants);
+    model.mechanics = make_mechanics(space, model.materials);
+
+    const auto timer = model.ledger.time("setup");
+    model.set_time(model.load_steps.start);
+    space.distribute_dofs();
+    space.update_constraints(model.conditions);
+    check_supports();
+    for (const auto &material : model.materials)
+      if (material.has_cone() && !(material.binder_ratio() < 1.) &&
+          !(model.newton.regularization > 0.))
+        model.newton.regularization = 1e-6;
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::print_template(std::ostream &out)
+  {
+    SceneFile file;
+    file.set({"Materials", "sand"}, "Rheology", "elastic granular");
+    file.set({"Materials", "sand"}, "Admissible set", "mises schleicher");
+    file.set({"Materials", "sand"}, "Friction parameter", "0.5");
+    file.set({"Materials", "sand"}, "Bulk modulus", "1e8");
+    file.set({"Materials", "sand"}, "Shear modulus", "6e7");
+    file.set({"Materials", "sand"}, "Binder", "proportional");
+    file.set({"Boundaries", "bottom"}, "Symmetry", "true");
+    Scene scene(MPI_COMM_SELF, file);
+    scene.handler.print_parameters(out, ParameterHandler::PRM);
+  }
+
+  namespace
+  {
+    template <int dim>
+    ExitStatus
+    build_and_run(const MPI_Comm  &communicator,
+                  const SceneFile &file,
+                  const Options   &options)
+    {
+      ConditionalOStream screen(
+        std::cout, Utilities::MPI::this_mpi_process(communicator) == 0);
+      Scene<dim> scene(communicator, file);
+      if (scene.model.output.directory.empty())
+        scene.model.output.directory =
+          "output/" +
+          std::filesystem::path(options.scene_file).stem().string();
+      scene.build();
+      screen << "Signoton " SIGNOTON_VERSION " on "
+             << Utilities::MPI::n_mpi_processes(communicator) << " ranks: "
+             << (scene.title.empty() ? options.scene_file : scene.title)
+             << "\n";
+      if (options.action != Options::Action::run)
+        {
+          if (options.action == Options::Action::explain)
+            screen << "\n" << explain(scene.model);
+          else
+            screen << "The scene is valid.\n";
+          return ExitStatus::completed;
+        }
+      for (const auto &effect : requirements(scene.model))
+        if (effect.on)
+          screen << "  " << effect.name << ": " << effect.why << "\n";
+      return Statics<dim>(scene.model).run(options.resume_directory);
+    }
+  } // namespace
+
+  ExitStatus
+  run_scene(const MPI_Comm &communicator, const Options &options)
+  {
+    SceneFile file = SceneFile::read(options.scene_file);
+    for (const auto &assignment : options.overrides)
+      file.override_entry(assignment);
+    if (!options.output_directory.empty())
+      file.set({"Output"}, "Directory", options.output_directory);
+    const SceneFile::Path geometry = {"Geometry"};
+    if (const std::string mesh = file.value(geometry, "Mesh file");
+        !mesh.empty())
+      file.set(geometry,
+               "Mesh file",
+               std::filesystem::absolute(
+                 std::filesystem::path(file.directory()) / mesh)
+                 .lexically_normal()
+                 .string());
+
+    const std::string dimension = file.value({}, "Dimension", "2");
+    if (dimension == "2")
+      return build_and_run<2>(communicator, file, options);
+    if (dimension == "3")
+      return build_and_run<3>(communicator, file, options);
+    throw UserError(file.where({}, "Dimension"),
+                    "'" + dimension + "'",
+                    "2 or 3",
+                    "2 for plane strain and axisymmetric scenes");
+  }
+
+  std::string
+  scene_template(const std::string &analysis)
+  {
+    if (analysis != "statics")
+      throw UserError("command line, --template",
+                      "'" + analysis + "'",
+                      "one of: statics",
+                      "'signoton --template statics'");
+    std::ostringstream out;
+    Scene<2>::print_template(out);
+    return out.str();
+  }
+} // namespace Signoton

@@ -1,0 +1,138 @@
+#include <signoton/solvers/linear_solver.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_gmres.h>
+
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+
+namespace Signoton
+{
+  void
+  LinearSolver::Parameters::add_parameters(ParameterHandler &handler)
+  {
+    handler.enter_subsection("Linear solver");
+    handler.add_parameter(
+      "Method",
+      method,
+      "auto: direct for small systems, else cg. cg: conjugate gradients with "
+      "algebraic multigrid. gmres: the same for non-symmetric tangents. "
+      "direct: sparse factorization on one rank.",
+      Patterns::Selection("auto|cg|gmres|direct"));
+    handler.add_parameter("Direct below",
+                          direct_limit,
+                          "Number of unknowns up to which auto chooses "
+                          "direct.");
+    handler.add_parameter("Maximum iterations",
+                          maximum_iterations,
+                          "Iterations of cg or gmres after which a solve has "
+                          "failed.",
+                          Patterns::Integer(1));
+    handler.add_parameter("Aggregation threshold",
+                          aggregation_threshold,
+                          "Couplings weaker than this part of the diagonal do "
+                          "not aggregate in the multigrid.",
+                          Patterns::Double(0., 1.));
+    handler.add_parameter("Smoother sweeps",
+                          smoother_sweeps,
+                          "Degree of the Chebyshev smoother.",
+                          Patterns::Integer(1, 20));
+    handler.leave_subsection();
+  }
+
+  void
+  LinearSolver::initialize(
+    const TrilinosWrappers::SparseMatrix   &new_matrix,
+    const std::vector<std::vector<double>> &near_null_space,
+    const unsigned int                      degree)
+  {
+    const auto timer = ledger.time("preconditioner");
+    matrix           = &new_matrix;
+    amg.reset();
+    direct.reset();
+    if (parameters.method == "direct" ||
+        (parameters.method == "auto" && matrix->m() <= parameters.direct_limit))
+      {
+        direct_control = std::make_unique<SolverControl>(1, 0.);
+        direct = std::make_unique<TrilinosWrappers::SolverDirect>(
+          *direct_control);
+        direct->initialize(*matrix);
+        return;
+      }
+
+    TrilinosWrappers::PreconditionAMG::AdditionalData options;
+    options.elliptic              = true;
+    options.higher_order_elements = degree > 1;
+    options.smoother_sweeps       = parameters.smoother_sweeps;
+    options.aggregation_threshold = parameters.aggregation_threshold;
+    Teuchos::ParameterList              list;
+    std::unique_ptr<Epetra_MultiVector> unused;
+    options.set_parameters(list, unused, *matrix);
+
+    Epetra_MultiVector modes(matrix->trilinos_matrix().OperatorDomainMap(),
+                             near_null_space.size(),
+                             false);
+    for (unsigned int a = 0; a < near_null_space.size(); ++a)
+      for (int i = 0; i < modes.MyLength(); ++i)
+        modes[a][i] = near_null_space[a][i];
+    list.set("null space: type", "pre-computed");
+    list.set("null space: dimension", static_cast<int>(modes.NumVectors()));
+    list.set("null space: vectors", modes.Values());
+    amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    amg->initialize(*matrix, list);
+  }
+
+  LinearResult
+  LinearSolver::solve(VectorType       &solution,
+                      const VectorType &rhs,
+                      const double      tolerance)
+  {
+    const auto   timer = ledger.time("linear solve");
+    LinearResult result;
+    const double rhs_norm = rhs.l2_norm();
+    if (!(rhs_norm > 0.))
+      {
+        solution         = 0.;
+        result.converged = std::isfinite(rhs_norm);
+        result.reason    = "the residual is not a number";
+        return result;
+      }
+
+    SolverControl control(parameters.maximum_iterations,
+                          tolerance * rhs_norm,
+                          false,
+                          false);
+    try
+      {
+        if (direct)
+          direct->solve(solution, rhs);
+        else if (parameters.method == "gmres")
+          {
+            SolverGMRES<VectorType>::AdditionalData options;
+            options.max_n_tmp_vectors = 80;
+            SolverGMRES<VectorType>(control, options)
+              .solve(*matrix, solution, rhs, *amg);
+          }
+        else
+          SolverCG<VectorType>(control).solve(*matrix, solution, rhs, *amg);
+        result.converged = true;
+      }
+    catch (const SolverControl::NoConvergence &failure)
+      {
+        result.reason = "no convergence in " +
+                        std::to_string(failure.last_step) + " iterations";
+      }
+    catch (const ExceptionBase &)
+      {
+        result.reason = "the matrix is singular or not positive definite";
+      }
+    result.iterations = direct ? 1 : control.last_step();
+    result.residual   = direct ? 0. : control.last_value() / rhs_norm;
+    if (!std::isfinite(solution.l2_norm()))
+      {
+        result.converged = false;
+        result.reason    = "the matrix is singular";
+      }
+    return result;
+  }
+} // namespace Signoton

@@ -1,0 +1,169 @@
+#include <signoton/solvers/newton.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Signoton
+{
+  void
+  Newton::Parameters::add_parameters(ParameterHandler &handler)
+  {
+    handler.enter_subsection("Newton");
+    handler.add_parameter("Maximum iterations",
+                          maximum_iterations,
+                          "Iterations after which a step has failed and is "
+                          "cut.",
+                          Patterns::Integer(1));
+    handler.add_parameter("Tolerance",
+                          tolerance,
+                          "Norm of the residual relative to the forces in "
+                          "balance.",
+                          Patterns::Double(1e-15, 1e-2));
+    handler.add_parameter("Maximum line search steps",
+                          maximum_line_search_steps,
+                          "Trials of a line search after which a step has "
+                          "failed.",
+                          Patterns::Integer(1));
+    handler.add_parameter("Tangent regularization",
+                          regularization,
+                          "Multiple of the elastic tangent added to the "
+                          "tangent from the start. 0: only where the linear "
+                          "solver needs it. The residual never has it.",
+                          Patterns::Double(0., 1.));
+    handler.leave_subsection();
+  }
+
+  unsigned int
+  NewtonResult::most_linear_iterations() const
+  {
+    unsigned int most = 0;
+    for (const auto &iteration : history)
+      most = std::max(most, iteration.linear_iterations);
+    return most;
+  }
+
+  unsigned int
+  NewtonResult::linear_iterations() const
+  {
+    unsigned int sum = 0;
+    for (const auto &iteration : history)
+      sum += iteration.linear_iterations;
+    return sum;
+  }
+
+  double
+  Newton::search(ConvexProblem    &problem,
+                 const VectorType &dx,
+                 VectorType       &x,
+                 VectorType       &gradient,
+                 double           &energy) const
+  {
+    const double     slope_0  = gradient * dx;
+    const double     energy_0 = energy;
+    const VectorType x_0(x);
+    double           alpha = 1.;
+    for (unsigned int trial = 0; trial < parameters.maximum_line_search_steps;
+         ++trial)
+      {
+        x = x_0;
+        x.add(alpha, dx);
+        // the full step is nearly always taken: linearize there at once
+        energy             = problem.evaluate(x, gradient, trial == 0);
+        const double slope = gradient * dx;
+        const double noise =
+          1e-13 * std::max(std::abs(energy), std::abs(energy_0));
+        const bool decrease =
+          energy <= energy_0 + 1e-4 * alpha * slope_0 &&
+          std::abs(alpha * slope_0) > noise;
+        const bool flat = std::abs(slope) <= 0.5 * std::abs(slope_0) &&
+                          energy <= energy_0 + noise;
+        if (std::isfinite(energy) && (decrease || flat))
+          {
+            if (trial > 0)
+              energy = problem.evaluate(x, gradient, true);
+            return alpha;
+          }
+        const double secant =
+          std::isfinite(slope) && slope > slope_0 ?
+            alpha * slope_0 / (slope_0 - slope) :
+            0.;
+        alpha = std::clamp(secant, 0.1 * alpha, 0.7 * alpha);
+      }
+    x      = x_0;
+    energy = problem.evaluate(x, gradient, true);
+    return 0.;
+  }
+
+  NewtonResult
+  Newton::solve(ConvexProblem &problem, VectorType &x) const
+  {
+    NewtonResult result;
+    result.regularization = parameters.regularization;
+    VectorType gradient(x), rhs(x), dx(x);
+    double     energy = problem.evaluate(x, gradient, true);
+    double     scale  = problem.force_scale(x);
+    double     norm = gradient.l2_norm(), previous_norm = norm;
+    result.history.push_back(
+      {scale > 0. ? norm / scale : 0., 0, 0.});
+    for (unsigned int iteration = 0;; ++iteration)
+      {
+        if (!std::isfinite(norm))
+          {
+            result.reason = "the residual is not a number";
+            return result;
+          }
+        if (norm <= parameters.tolerance * scale)
+          {
+            result.converged = true;
+            return result;
+          }
+        if (iteration == parameters.maximum_iterations)
+          {
+            result.reason = "no convergence in " + std::to_string(iteration) +
+                            " iterations";
+            return result;
+          }
+
+        // Inexact Newton: solve as accurately as quadratic convergence can
+        // use, and not beyond the tolerance (Eisenstat and Walker, choice 2).
+        const double ratio   = norm / previous_norm;
+        const double forcing = std::max(
+          std::clamp(iteration == 0 ? 1e-3 : 0.1 * ratio * ratio, 1e-6, 1e-3),
+          std::min(1e-3, 0.1 * parameters.tolerance * scale / norm));
+        rhs = gradient;
+        rhs *= -1.;
+        LinearResult linear;
+        double       step              = 0.;
+        unsigned int linear_iterations = 0;
+        while (true)
+          {
+            dx     = 0.;
+            linear = problem.solve(rhs, dx, forcing, result.regularization);
+            linear_iterations += linear.iterations;
+            if (linear.converged && gradient * dx < 0.)
+              {
+                step = search(problem, dx, x, gradient, energy);
+                if (step > 0.)
+                  break;
+                linear.reason = "the line search found no decrease";
+              }
+            else if (linear.converged)
+              linear.reason = "the tangent gives no descent direction";
+            if (result.regularization >= 1e-2)
+              {
+                result.reason = linear.reason;
+                return result;
+              }
+            result.regularization =
+              std::max(1e-8, 100. * result.regularization);
+          }
+        if (result.regularization > parameters.regularization)
+          result.regularization = std::max(parameters.regularization,
+                                           0.1 * result.regularization);
+        previous_norm = norm;
+        norm          = gradient.l2_norm();
+        scale         = std::max(scale, problem.force_scale(x));
+        result.history.push_back({norm / scale, linear_iterations, step});
+      }
+  }
+} // namespace Signoton
