@@ -1,0 +1,112 @@
+#ifndef signoton_tests_physical_numbers_h
+#define signoton_tests_physical_numbers_h
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iomanip>
+#include <map>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/**
+ * Reading the statistics of a run, and printing the physical ones in a form
+ * that numdiff compares well: as mantissa and power of ten, since its absolute
+ * tolerance would hide small numbers, and with round-off cut to zero.
+ * Iteration counts and timings are left out.
+ */
+namespace PhysicalNumbers
+{
+  using Line = std::vector<std::pair<std::string, double>>;
+
+  /** All lines of a statistics.csv. */
+  inline std::vector<Line>
+  read(const std::string &file_name)
+  {
+    std::ifstream            file(file_name);
+    std::vector<Line>        lines;
+    std::vector<std::string> names;
+    for (std::string text; std::getline(file, text);)
+      {
+        std::istringstream stream(text);
+        std::string        item;
+        if (names.empty())
+          {
+            while (std::getline(stream, item, ','))
+              names.push_back(item.substr(1, item.size() - 2));
+            continue;
+          }
+        Line line;
+        while (std::getline(stream, item, ','))
+          line.emplace_back(names.at(line.size()), std::atof(item.c_str()));
+        lines.push_back(line);
+      }
+    return lines;
+  }
+
+  inline double
+  value(const Line &line, const std::string &name)
+  {
+    for (const auto &[key, number] : line)
+      if (key == name)
+        return number;
+    throw std::runtime_error("no column '" + name + "'");
+  }
+
+  /** Quantities of one kind, which share a scale. */
+  inline std::string
+  group(const std::string &name)
+  {
+    if (name.find("energy") != std::string::npos || name == "external work" ||
+        name == "transfer drift")
+      return "energy";
+    for (const char *prefix : {"reaction", "displacement", "share of"})
+      if (name.rfind(prefix, 0) == 0)
+        return prefix;
+    return name;
+  }
+
+  inline bool
+  is_physical(const std::string &name)
+  {
+    for (const char *word : {"iterations", "seconds", "residual", "memory",
+                             "regularization"})
+      if (name.find(word) != std::string::npos)
+        return false;
+    return true;
+  }
+
+  inline void
+  print(std::ostream &out, const Line &line, const double noise = 1e-9)
+  {
+    std::map<std::string, double> scale;
+    for (const auto &[name, number] : line)
+      scale[group(name)] = std::max(scale[group(name)], std::abs(number));
+    out << std::fixed << std::setprecision(9);
+    for (const auto &[name, number] : line)
+      if (is_physical(name))
+        {
+          const double cut =
+            name == "relative L2 error" || name == "L2 error" ||
+                group(name) == "share of" ?
+              noise :
+              noise * scale[group(name)];
+          out << "  " << name << ": ";
+          if (std::abs(number) <= cut)
+            out << "0\n";
+          else
+            {
+              // mantissas between 0.3 and 3: no jump near round numbers
+              const int exponent = static_cast<int>(
+                std::floor(std::log10(std::abs(number)) + 0.5));
+              out << number / std::pow(10., exponent) << " * 10^ " << exponent
+                  << "\n";
+            }
+        }
+  }
+} // namespace PhysicalNumbers
+
+#endif
