@@ -127,7 +127,10 @@ namespace Signoton
       const auto timer = model.ledger.time("assembly");
       model.mechanics->assemble(matrix, regularization);
     }
-    linear_solver.initialize(matrix, near_null_space, model.space->degree);
+    linear_solver.initialize(matrix,
+                             near_null_space,
+                             dim,
+                             model.space->degree);
     assembled = regularization;
   }
 

@@ -44,6 +44,7 @@ namespace Signoton
   LinearSolver::initialize(
     const TrilinosWrappers::SparseMatrix   &new_matrix,
     const std::vector<std::vector<double>> &near_null_space,
+    const unsigned int                      n_components,
     const unsigned int                      degree)
   {
     const auto timer = ledger.time("preconditioner");
@@ -75,6 +76,10 @@ namespace Signoton
     for (unsigned int a = 0; a < near_null_space.size(); ++a)
       for (int i = 0; i < modes.MyLength(); ++i)
         modes[a][i] = near_null_space[a][i];
+    // The coarsest matrices are nearly dense: factoring one of deal.II's default
+    // size of 2000 costs more than all the rest of the setup.
+    list.set("coarse: max size", 200);
+    list.set("PDE equations", static_cast<int>(n_components));
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", static_cast<int>(modes.NumVectors()));
     list.set("null space: vectors", modes.Values());

@@ -3,5 +3,4 @@
 namespace Signoton
 {
   template class MechanicsKernel<PlaneStrain, 1>;
-  template class MechanicsKernel<PlaneStrain, 2>;
 } // namespace Signoton

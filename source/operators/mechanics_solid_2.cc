@@ -2,6 +2,5 @@
 
 namespace Signoton
 {
-  template class MechanicsKernel<Solid, 1>;
   template class MechanicsKernel<Solid, 2>;
 } // namespace Signoton

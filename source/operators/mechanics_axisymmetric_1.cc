@@ -3,5 +3,4 @@
 namespace Signoton
 {
   template class MechanicsKernel<Axisymmetric, 1>;
-  template class MechanicsKernel<Axisymmetric, 2>;
 } // namespace Signoton
