@@ -108,7 +108,7 @@ namespace Signoton
       return text;
     };
     std::string best;
-    std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+    std::size_t best_distance = std::max<std::size_t>(2, (word.size() + 2) / 3) + 1;
     for (const auto &candidate : candidates)
       {
         const std::string a = lower(word), b = lower(candidate);
@@ -231,7 +231,16 @@ namespace Signoton
     const std::string key = path.empty() ? "" : path.back();
     if (!path.empty())
       path.pop_back();
-    set(path, key, Utilities::trim(assignment.substr(equal + 1)));
+    entries.push_back(
+      {path, key, Utilities::trim(assignment.substr(equal + 1)), 0});
+    open_sections(path);
+  }
+
+  void
+  SceneFile::open_sections(const Path &path)
+  {
+    for (std::size_t depth = 1; depth <= path.size(); ++depth)
+      sections.emplace_back(Path(path.begin(), path.begin() + depth), 0);
   }
 
   void
@@ -239,9 +248,14 @@ namespace Signoton
                  const std::string &key,
                  const std::string &value)
   {
+    for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
+      if (entry->path == path && entry->key == key)
+        {
+          entry->value = value;
+          return;
+        }
     entries.push_back({path, key, value, 0});
-    for (std::size_t depth = 1; depth <= path.size(); ++depth)
-      sections.emplace_back(Path(path.begin(), path.begin() + depth), 0);
+    open_sections(path);
   }
 
   std::vector<std::string>

@@ -40,8 +40,8 @@ namespace Signoton
       if (generator == "quarter_hyper_shell")
         return dim == 2 ? BoundaryNames{{"inner", 0},
                                         {"outer", 1},
-                                        {"axis x", 2},
-                                        {"axis y", 3}} :
+                                        {"plane x", 2},
+                                        {"plane y", 3}} :
                           BoundaryNames{{"inner", 0},
                                         {"outer", 1},
                                         {"plane x", 2},
@@ -160,7 +160,7 @@ namespace Signoton
       "condition in x, y, z selects the faces of the coarse mesh whose center "
       "fulfills it, for instance 'plate: y > 0.99 && x < 0.5'. Boxes and "
       "quarter shells have names already: left, right, (front, back,) bottom, "
-      "top; inner, outer, axis x, axis y (2D), plane x, plane y, plane z (3D).");
+      "top; inner, outer, plane x (where x = 0), plane y(, plane z).");
     handler.add_parameter("Material ids",
                           material_ids,
                           "Material ids by position, 'id: condition; ...' "

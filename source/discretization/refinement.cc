@@ -42,7 +42,8 @@ namespace Signoton
                           Patterns::Integer(0, 20));
     handler.add_parameter("Minimum level",
                           minimum_level,
-                          "Coarsest level.",
+                          "Coarsest level; if not given, that of the initial "
+                          "refinement.",
                           Patterns::Integer(0, 20));
     handler.add_parameter("Maximum unknowns",
                           maximum_unknowns,

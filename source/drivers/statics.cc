@@ -64,7 +64,7 @@ namespace Signoton
     u = guess;
     for (double ratio = 0.1; true; ratio = std::max(0.1 * ratio, weakest))
       {
-        const bool is_last = ratio <= weakest;
+        const bool is_last = ratio <= weakest * (1. + 1e-12);
         if (is_last)
           model.mechanics->set_binder_ratio();
         else

@@ -1,5 +1,7 @@
 #include <signoton/rheology/material.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <cmath>
 #include <sstream>
 
@@ -265,7 +267,8 @@ namespace Signoton::Rheology
              "an angle in degrees, between 1.6 and 89.9",
              friction_angle > 0. ?
                "if the value is in radians, write " +
-                 std::to_string(friction_angle / degree) :
+                 Utilities::to_string(
+                   std::round(100. * friction_angle / degree) / 100.) :
                "for zero friction take Rheology = elastic plastic with "
                "Admissible set = tresca");
     if (contains(required, "Friction parameter") && !(friction_parameter > 0.))

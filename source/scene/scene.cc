@@ -127,9 +127,12 @@ namespace Signoton
                         file.where({"Reference solution"}, "Displacement"));
     if (!(model.load_steps.end > model.load_steps.start))
       throw UserError(file.where({"Load steps"}, "End time"),
-                      std::to_string(model.load_steps.end),
+                      "'" + file.value({"Load steps"}, "End time", "1") + "'",
                       "a time after 'Start time'",
                       "pseudo-time grows from Start time to End time");
+
+    if (!file.has({"Refinement"}, "Minimum level"))
+      model.refinement.set_minimum_level(model.geometry.initial_refinement);
 
     const std::string probes_at = file.where({"Output"}, "Probe points");
     for (const auto &point :

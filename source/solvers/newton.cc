@@ -56,13 +56,15 @@ namespace Signoton
                  const VectorType &dx,
                  VectorType       &x,
                  VectorType       &gradient,
-                 double           &energy) const
+                 double           &energy,
+                 const double      shortest) const
   {
     const double     slope_0  = gradient * dx;
     const double     energy_0 = energy;
     const VectorType x_0(x);
     double           alpha = 1.;
-    for (unsigned int trial = 0; trial < parameters.maximum_line_search_steps;
+    for (unsigned int trial = 0;
+         trial < parameters.maximum_line_search_steps && alpha >= shortest;
          ++trial)
       {
         x = x_0;
@@ -140,26 +142,38 @@ namespace Signoton
             dx     = 0.;
             linear = problem.solve(rhs, dx, forcing, result.regularization);
             linear_iterations += linear.iterations;
+            // Short steps say that the tangent is trusted too far: many points
+            // are about to switch their branch, or the body is near its limit
+            // load. A part of the elastic tangent shortens the increment where
+            // the body is loose, and only there.
+            double &rho = result.regularization;
             if (linear.converged && gradient * dx < 0.)
               {
-                step = search(problem, dx, x, gradient, energy);
+                const double shortest = rho < 0.1 ? 0.2 : 0.;
+                step = search(problem, dx, x, gradient, energy, shortest);
                 if (step > 0.)
                   break;
                 linear.reason = "the line search found no decrease";
+                rho           = std::max(1e-3, 10. * rho);
               }
-            else if (linear.converged)
-              linear.reason = "the tangent gives no descent direction";
-            if (result.regularization >= 1e-2)
+            else
+              {
+                if (linear.converged)
+                  linear.reason = "the tangent gives no descent direction";
+                rho = std::max(1e-8, 100. * rho);
+              }
+            if (rho > 2.)
               {
                 result.reason = linear.reason;
                 return result;
               }
-            result.regularization =
-              std::max(1e-8, 100. * result.regularization);
           }
-        if (result.regularization > parameters.regularization)
-          result.regularization = std::max(parameters.regularization,
-                                           0.1 * result.regularization);
+        if (step > 0.9)
+          result.regularization =
+            result.regularization > std::max(1e-5, parameters.regularization) ?
+              std::max(parameters.regularization,
+                       0.03 * result.regularization) :
+              parameters.regularization;
         previous_norm = norm;
         norm          = gradient.l2_norm();
         scale         = std::max(scale, problem.force_scale(x));

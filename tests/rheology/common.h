@@ -134,10 +134,10 @@ namespace Signoton::Testing
     const VonMisesCylinder<false> mises(.3);
     const VonMisesCylinder<true>  hardening(.3, .25);
 
-    using ContactMS  = SpringAndProjection<MisesSchleicherCone, Memory::none>;
-    using ContactCM  = SpringAndProjection<PrincipalSet, Memory::none>;
-    using Cut        = SpringAndProjection<MisesSchleicherCone, Memory::cylinder>;
-    using Plastic    = SpringAndProjection<VonMisesCylinder<false>, Memory::all>;
+    using ContactMS = SpringAndProjection<MisesSchleicherCone, Memory::none>;
+    using ContactCM = SpringAndProjection<PrincipalSet, Memory::none>;
+    using Cut     = SpringAndProjection<MisesSchleicherCone, Memory::cylinder>;
+    using Plastic = SpringAndProjection<VonMisesCylinder<false>, Memory::all>;
     using Hardening  = SpringAndProjection<VonMisesCylinder<true>, Memory::all>;
     using PlasticMS  = SpringAndProjection<MisesSchleicherCone, Memory::all>;
     using PlasticSet = SpringAndProjection<PrincipalSet, Memory::all>;

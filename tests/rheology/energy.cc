@@ -76,14 +76,13 @@ namespace
             const Step<Law>         step(law, next, history);
             const Response<double> &response = step.response;
 
-            const double growth = response.stored_energy - old.stored_energy +
-                                  response.dissipation;
+            const double growth =
+              response.stored_energy - old.stored_energy + response.dissipation;
             checks.dissipation.add(-response.dissipation);
             checks.potential.add(
               std::abs(growth - (response.potential - here.potential)));
-            checks.convexity.add(
-              std::max(growth - response.stress * change,
-                       old.stress * change - growth));
+            checks.convexity.add(std::max(growth - response.stress * change,
+                                          old.stress * change - growth));
             checks.repetition.add((here.stress - old.stress).norm() +
                                   std::abs(here.dissipation));
 
@@ -106,14 +105,14 @@ namespace
 
     Random random(1943);
     Checks checks;
-    Worst  cycles(0.), stored_is_potential(1e-12), convergence(1. / 3.);
+    Worst  cycles(0.), stored_is_potential(1e-12), convergence(.1);
     double dissipated = 0.;
 
     const std::array<unsigned int, 3> n_steps = {{20, 80, 320}};
     std::array<double, 3>             error{}; // sums over all paths
     for (unsigned int path = 0; path < 50; ++path)
       {
-        const auto    nodes  = random_path(random, 4, false);
+        const auto nodes = random_path(random, 4, false);
         for (unsigned int level = 0; level < n_steps.size(); ++level)
           {
             const Balance balance = follow(law, nodes, n_steps[level], checks);
@@ -135,7 +134,7 @@ namespace
           }
       }
 
-    // First order would be 1/4; round-off alone for the linear law.
+    // Of second order: 1/16. The linear law has round-off alone.
     for (unsigned int level = 1; level < n_steps.size(); ++level)
       convergence.add(error[level] / (error[level - 1] + 1e-9));
 
@@ -177,7 +176,8 @@ main()
     << std::setw(5) << "P" << std::endl;
   bool passed = true;
   for (const auto &entry : all_laws())
-    passed &= std::visit(
-      [&](const auto &law) { return check_law(entry.name, law); }, entry.law);
+    passed &=
+      std::visit([&](const auto &law) { return check_law(entry.name, law); },
+                 entry.law);
   return passed ? 0 : 1;
 }

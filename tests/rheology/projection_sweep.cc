@@ -30,6 +30,48 @@ namespace
     return spectrum;
   }
 
+  template <std::size_t d>
+  Real
+  dot(const std::array<Real, d> &a, const std::array<Real, d> &b)
+  {
+    Real sum = 0;
+    for (unsigned int i = 0; i < d; ++i)
+      sum += a[i] * b[i];
+    return sum;
+  }
+
+  /** Solves the first `m` equations of `M` by Gauss-Jordan elimination, the
+   *  right-hand side in column `m`; false if singular. */
+  template <std::size_t d>
+  bool
+  solve(std::array<std::array<Real, d + 1>, d> &M, const unsigned int m)
+  {
+    Real scale = 0;
+    for (unsigned int r = 0; r < m; ++r)
+      scale = std::max(scale, M[r][r]);
+    for (unsigned int c = 0; c < m; ++c)
+      {
+        unsigned int pivot = c;
+        for (unsigned int r = c + 1; r < m; ++r)
+          if (std::abs(M[r][c]) > std::abs(M[pivot][c]))
+            pivot = r;
+        if (std::abs(M[pivot][c]) < 1e-13L * scale)
+          return false;
+        std::swap(M[pivot], M[c]);
+        for (unsigned int r = 0; r < m; ++r)
+          {
+            if (r == c)
+              continue;
+            const Real factor = M[r][c] / M[c][c];
+            for (unsigned int k = c; k <= m; ++k)
+              M[r][k] -= factor * M[c][k];
+          }
+      }
+    for (unsigned int r = 0; r < m; ++r)
+      M[r][m] /= M[r][r];
+    return true;
+  }
+
   /**
    * The nearest point to `y` with `planes[i] * x <= bounds[i]` in the norm of
    * $E^{-1}$: of all candidates with up to `d` active planes, the one that
@@ -37,19 +79,13 @@ namespace
    */
   template <std::size_t d>
   std::array<Real, d>
-  enumerate_active_sets(const std::vector<std::array<Real, d>> &planes,
-                        const std::vector<Real>                &bounds,
+  enumerate_active_sets(const std::vector<std::array<Real, d>>   &planes,
+                        const std::vector<Real>                  &bounds,
                         const std::array<std::array<Real, d>, d> &E,
                         const std::array<Real, d>                &y)
   {
     const unsigned int               n = planes.size();
     std::vector<std::array<Real, d>> E_a(n);
-    const auto dot = [](const auto &a, const auto &b) {
-      Real sum = 0;
-      for (unsigned int i = 0; i < d; ++i)
-        sum += a[i] * b[i];
-      return sum;
-    };
     for (unsigned int p = 0; p < n; ++p)
       for (unsigned int i = 0; i < d; ++i)
         E_a[p][i] = dot(E[i], planes[p]);
@@ -62,50 +98,30 @@ namespace
         for (unsigned int p = 0; p < n; ++p)
           if (subset & (1u << p))
             active.push_back(p);
-        if (active.size() > d)
+        const unsigned int m = active.size();
+        if (m > d)
           continue;
 
-        // Gauss-Jordan with pivoting on (a E a) L = a y - bound
-        const unsigned int m        = active.size();
-        Real               M[d][d + 1] = {};
+        // (a E a) L = a y - bound for the multipliers L
+        std::array<std::array<Real, d + 1>, d> M;
         for (unsigned int r = 0; r < m; ++r)
           {
             for (unsigned int c = 0; c < m; ++c)
               M[r][c] = dot(planes[active[r]], E_a[active[c]]);
             M[r][m] = dot(planes[active[r]], y) - bounds[active[r]];
           }
-        bool singular = false;
-        for (unsigned int c = 0; c < m && !singular; ++c)
-          {
-            unsigned int pivot = c;
-            for (unsigned int r = c + 1; r < m; ++r)
-              if (std::abs(M[r][c]) > std::abs(M[pivot][c]))
-                pivot = r;
-            singular = std::abs(M[pivot][c]) <
-                       1e-13L * dot(planes[active[c]], E_a[active[c]]);
-            std::swap(M[pivot], M[c]);
-            for (unsigned int r = 0; r < m; ++r)
-              if (r != c && !singular)
-                {
-                  const Real factor = M[r][c] / M[c][c];
-                  for (unsigned int k = c; k <= m; ++k)
-                    M[r][k] -= factor * M[c][k];
-                }
-          }
-        if (singular)
+        if (!solve<d>(M, m))
           continue;
 
         std::array<Real, d> x         = y;
         Real                violation = 0;
         for (unsigned int r = 0; r < m; ++r)
           {
-            const Real multiplier = M[r][m] / M[r][r];
+            const auto &step = E_a[active[r]];
             for (unsigned int i = 0; i < d; ++i)
-              x[i] -= multiplier * E_a[active[r]][i];
-            violation = std::max(violation,
-                                 -multiplier *
-                                   std::sqrt(dot(E_a[active[r]],
-                                                 E_a[active[r]])));
+              x[i] -= M[r][m] * step[i];
+            violation =
+              std::max(violation, -M[r][m] * std::sqrt(dot(step, step)));
           }
         for (unsigned int p = 0; p < n; ++p)
           violation = std::max(violation, dot(planes[p], x) - bounds[p]);
@@ -127,9 +143,9 @@ namespace
     std::function<double(const Tensor2<> &)> excess;
     /** By how much a strain leaves the domain of the support function. */
     std::function<double(const Tensor2<> &)> outside_domain;
-    /** The support function, in J/m^3. A cone that ends at a pressure far
-     *  above all stresses at hand, the second argument, may end there instead: normal cones are
-     *  local, and round-off is then measured by those stresses. */
+    /** The support function, in J/m^3. A cone that ends at a pressure above
+     *  all stresses at hand, the second argument, may end there instead:
+     *  normal cones are local, and those stresses then scale round-off. */
     std::function<double(const Tensor2<> &, const double)> support;
     /** Independent projection. */
     std::function<Tensor2<>(const Tensor2<> &, const Moduli &)> brute_force;
@@ -155,11 +171,11 @@ namespace
   {
     const Tensor2<> deviator = deviatoric_part(t);
     const double    tau      = shear_intensity(deviator);
-    const auto      x        = enumerate_active_sets<2>(
-      lines,
-      bounds,
-      {{{{moduli.bulk, 0.}}, {{0., moduli.shear}}}},
-      {{Real(pressure(t)) + apex, tau}});
+    const auto      x =
+      enumerate_active_sets<2>(lines,
+                               bounds,
+                               {{{{moduli.bulk, 0.}}, {{0., moduli.shear}}}},
+                               {{Real(pressure(t)) + apex, tau}});
     return (tau > 0. ? double(x[1] / tau) : 0.) * deviator +
            double(apex - x[0]) * unit_symmetric_tensor<3>();
   }
@@ -255,7 +271,7 @@ namespace
   Candidate<PrincipalSet>
   coulomb(const double degrees, const double apex)
   {
-    const double phi = degrees * numbers::PI / 180.;
+    const double phi  = degrees * numbers::PI / 180.;
     const double sine = degrees < 90. ? std::sin(phi) : 1.;
     const double m    = (1. - sine) / (1. + sine);
     return {degrees < 90. ? PrincipalSet::coulomb_mohr(phi, apex) :
@@ -329,10 +345,7 @@ namespace
    *  by bisection down to round-off. */
   template <typename Set>
   Tensor2<>
-  between(const Set    &set,
-          const Moduli &moduli,
-          Tensor2<>     here,
-          Tensor2<>     there)
+  between(const Set &set, const Moduli &moduli, Tensor2<> here, Tensor2<> there)
   {
     const double region = project(set, here, moduli).region;
     for (unsigned int i = 0; i < 54; ++i)
@@ -355,8 +368,9 @@ namespace
     const auto      nearest = [&](const Tensor2<> &t) {
       return project(candidate.set, t, moduli).stress;
     };
-    const Tensor2<> any = scale * (random.tensor() - random.uniform(-1., 2.) * I);
-    const double    tiny = random.power_of_ten(-17., -1.);
+    const Tensor2<> any =
+      scale * (random.tensor() - random.uniform(-1., 2.) * I);
+    const double tiny = random.power_of_ten(-17., -1.);
     switch (random.below(8))
       {
         case 0:
@@ -383,7 +397,7 @@ namespace
       }
   }
 
-  constexpr unsigned int n_points            = 1000000;
+  constexpr unsigned int n_points           = 1000000;
   constexpr unsigned int brute_force_stride = 50;
   constexpr unsigned int border_stride      = 100;
 
@@ -393,8 +407,8 @@ namespace
   bool
   sweep(const std::string &name, const Make &make)
   {
-    Random  random(20120831);
-    Worst   feasibility(1e-12), normality(1e-12), complementarity(1e-12),
+    Random random(20120831);
+    Worst  feasibility(1e-12), normality(1e-12), complementarity(1e-12),
       distance(1e-12);
     Regions regions;
     for (unsigned int point = 0; point < n_points; ++point)
@@ -416,18 +430,17 @@ namespace
                       t,
                       trial_stress(candidate, moduli, scale, random));
 
-        const Projection<double> projection =
-          project(candidate.set, t, moduli);
+        const Projection<double> projection = project(candidate.set, t, moduli);
         regions.add(projection.region);
 
         // The apex is subtracted from t, so its size counts in round-off.
         const Tensor2<> I     = unit_symmetric_tensor<3>();
         const Tensor2<> reach = t - candidate.apex * I;
         const double    shift = candidate.apex * candidate.apex / moduli.bulk;
-        const double    force = reach.norm() + candidate.apex +
-                             std::numeric_limits<double>::min();
-        const double strain   = force / (3. * moduli.bulk) +
-                              force / (2. * moduli.shear);
+        const double    force =
+          reach.norm() + candidate.apex + std::numeric_limits<double>::min();
+        const double strain =
+          force / (3. * moduli.bulk) + force / (2. * moduli.shear);
         const double energy = moduli.energy_product(reach, reach) + shift +
                               std::numeric_limits<double>::min();
 
@@ -438,9 +451,8 @@ namespace
         feasibility.add(candidate.excess(projection.stress) / force);
         normality.add(candidate.outside_domain(q) / strain);
         complementarity.add(
-          std::abs(
-            candidate.support(q, force + projection.stress.norm()) -
-            projection.stress * q) /
+          std::abs(candidate.support(q, force + projection.stress.norm()) -
+                   projection.stress * q) /
           energy);
         if (point % brute_force_stride == 0)
           distance.add(
@@ -469,8 +481,9 @@ main()
   std::cout << "relative residuals below 1e-12?\n";
   print_legend();
   std::cout << std::left << std::setw(24) << "set" << std::setw(9) << "in set"
-            << std::setw(9) << "normal" << std::setw(9) << "h(q)=s:q"
-            << ' ' << std::setw(12) << "brute force" << "regions" << std::endl;
+            << std::setw(9) << "normal" << std::setw(9) << "h(q)=s:q" << ' '
+            << std::setw(12) << "brute force"
+            << "regions" << std::endl;
 
   bool passed = sweep("Mises-Schleicher", [](const double scale, Random &r) {
     return mises_schleicher(r.power_of_ten(-1.5, .5),

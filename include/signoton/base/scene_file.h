@@ -41,7 +41,7 @@ namespace Signoton
     void
     override_entry(const std::string &assignment);
 
-    /** Set, or replace, one entry. */
+    /** Set one entry, or change its value where it stands. */
     void
     set(const Path &path, const std::string &key, const std::string &value);
 
@@ -87,6 +87,9 @@ namespace Signoton
       std::string  value;
       unsigned int line; ///< 0 for the command line
     };
+
+    void
+    open_sections(const Path &path);
 
     const Entry *
     find(const Path &path, const std::string &key) const;

@@ -32,6 +32,13 @@ namespace Signoton
       return cycles_per_step > 0;
     }
 
+    /** The coarsest level, unless the scene sets it. */
+    void
+    set_minimum_level(const unsigned int level)
+    {
+      minimum_level = level;
+    }
+
     /** Squared indicators of the locally owned cells, by active cell index.
      *  @param stress ghosted field of in-plane stresses at the points
      *  @param shear_modulus by material id, in Pa */

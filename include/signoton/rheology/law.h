@@ -107,8 +107,9 @@ namespace Signoton::Rheology
    * projection; $\sigma = dW_n/d\varepsilon$, and
    * $T = fE+(1-f)T_\pi(1-f)$ is symmetric.
    *
-   * Source: scheme 2.10b of Sadovskaya and Sadovskii (2012) in tensors; implicit
-   * Euler for the plastic part. The elimination is in doc/equations.md.
+   * Source: scheme 2.10b of Sadovskaya and Sadovskii (2012) in tensors;
+   * implicit Euler for the plastic part. The elimination is in
+   * doc/equations.md.
    */
   template <typename Set, Memory memory>
   class SpringAndProjection

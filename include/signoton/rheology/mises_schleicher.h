@@ -136,7 +136,7 @@ namespace Signoton::Rheology
       const Tensor2<Number> deviator = deviatoric_part(q);
       const Number          gamma    = 2. * shear_intensity(deviator);
       const Number          zero(0.), one(1.);
-      const Number          safe_gamma = select_if_less(zero, gamma, gamma, one);
+      const Number safe_gamma = select_if_less(zero, gamma, gamma, one);
       const Number in_corner =
         std::max(zero, Number(one - trace(q) / (friction * safe_gamma)));
       const Number share = select_if_less(

@@ -76,8 +76,8 @@ namespace Signoton::Rheology
   {
     const auto I = unit_symmetric_tensor<3, Number>();
     return isotropic_tensor<Number>(a_II, a_d) +
-           a_In * (outer_product(I, n) + outer_product(n, I)) +
-           (a_nn - 0.5 * a_d) * outer_product(n, n);
+           a_In * (tensor_product(I, n) + tensor_product(n, I)) +
+           (a_nn - 0.5 * a_d) * tensor_product(n, n);
   }
 } // namespace Signoton::Rheology
 

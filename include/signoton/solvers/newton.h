@@ -74,9 +74,10 @@ namespace Signoton
    * A step length is accepted if it decreases the energy sufficiently
    * (Armijo), or, where differences of energies drown in round-off, if it
    * halves the slope. Otherwise the next trial is the secant zero of the
-   * slope, which a convex function makes monotone. If the linear solver
-   * gives up, the tangent (never the residual) is regularized by a multiple of
-   * the elastic one, which shrinks again once steps succeed.
+   * slope, which a convex function makes monotone. If only short steps are
+   * acceptable, or the linear solver gives up, the tangent (never the
+   * residual) is regularized by a multiple of the elastic one, which shrinks
+   * again once full steps succeed.
    */
   class Newton
   {
@@ -105,14 +106,16 @@ namespace Signoton
     solve(ConvexProblem &problem, VectorType &x) const;
 
   private:
-    /** Line search from x along dx; returns the step length, 0 on failure.
-     *  Leaves the problem linearized at the new x. */
+    /** Line search from x along dx; returns the step length, 0 if none at
+     *  least as long as @p shortest is acceptable. Leaves the problem
+     *  linearized at the new x. */
     double
     search(ConvexProblem    &problem,
            const VectorType &dx,
            VectorType       &x,
            VectorType       &gradient,
-           double           &energy) const;
+           double           &energy,
+           const double      shortest) const;
 
     const Parameters &parameters;
   };

@@ -67,20 +67,21 @@ namespace Signoton
       std::array<Tensor2<>, 3> M = {{dyad(0, 0), dyad(1, 1), dyad(2, 2)}};
       for (unsigned int a = 0; a < 3; ++a)
         for (unsigned int b = 0; b < 3; ++b)
-          result += J_E[a][b] * outer_product(M[a], M[b]);
+          result += J_E[a][b] * tensor_product(M[a], M[b]);
       for (unsigned int a = 0; a < 3; ++a)
         for (unsigned int b = a + 1; b < 3; ++b)
           {
             const double gap = values[a] - values[b];
-            // projections are monotone and nonexpansive: theta is in [0,1]
+            // Projections are monotone and nonexpansive: theta is in [0,1].
+            // At the threshold, round-off in the quotient is about 1e-8.
             const double theta =
-              std::clamp(gap > 1e-9 * scale ?
+              std::clamp(gap > 1e-7 * scale ?
                            (x[a] - x[b]) / gap :
                            (J_E[a][a] - J_E[a][b]) / (2. * shear_modulus),
                          0.,
                          1.);
             const Tensor2<> S = dyad(a, b);
-            result += (4. * shear_modulus * theta) * outer_product(S, S);
+            result += (4. * shear_modulus * theta) * tensor_product(S, S);
           }
       return result;
     }

@@ -1,0 +1,103 @@
+// The laws on VectorizedArray<double> give what they give on double, lane by
+// lane. Lanes are drawn independently, so wide arrays mix regions, also with
+// lanes that are elastic.
+
+#include "common.h"
+
+using namespace Signoton;
+using namespace Signoton::Testing;
+
+namespace
+{
+  using Lanes = VectorizedArray<double>;
+
+  /** The lanes agree for every quantity that `request` asks for. */
+  template <unsigned int request, typename Law>
+  void
+  check_request(const Law &law, Random &random, Worst &worst)
+  {
+    std::array<Tensor2<>, Lanes::size()>            strains;
+    std::array<History<Law, double>, Lanes::size()> histories;
+    Tensor2<Lanes>                                  strain;
+    History<Law, Lanes> accepted = virgin<Law, Lanes>(), trial;
+    for (unsigned int i = 0; i < Lanes::size(); ++i)
+      {
+        strains[i] =
+          random.power_of_ten(-2., 0.) *
+          (random.tensor() + random.uniform() * unit_symmetric_tensor<3>());
+        // no strain at all: nothing may be divided by zero
+        if (random.below(10) == 0)
+          strains[i] = random.below(2) * unit_symmetric_tensor<3>();
+        histories[i] =
+          random.below(2) ? random_history(law, random) : virgin<Law>();
+        set_lane(strain, i, strains[i]);
+        for (unsigned int n = 0; n < Law::n_tensors; ++n)
+          set_lane(accepted.tensors[n], i, histories[i].tensors[n]);
+        for (unsigned int n = 0; n < Law::n_scalars; ++n)
+          set_lane(accepted.scalars[n], i, histories[i].scalars[n]);
+      }
+
+    Response<Lanes> response;
+    law.template update<request>(strain, accepted, trial, response);
+
+    for (unsigned int i = 0; i < Lanes::size(); ++i)
+      {
+        Response<double>     expected;
+        History<Law, double> after;
+        law.template update<request>(strains[i], histories[i], after, expected);
+        const auto compare = [&](const Lanes &vectorized, const double scalar) {
+          worst.add(std::abs(lane(vectorized, i) - scalar));
+        };
+        compare(response.region, expected.region);
+        worst.add((lane(response.stress, i) - expected.stress).norm());
+        if constexpr (request & tangent)
+          for (unsigned int c = 0; c < Tensor4<>::n_independent_components; ++c)
+            compare(response.tangent.access_raw_entry(c),
+                    expected.tangent.access_raw_entry(c));
+        if constexpr (request & potential)
+          compare(response.potential, expected.potential);
+        if constexpr (request & energies)
+          {
+            compare(response.stored_energy, expected.stored_energy);
+            compare(response.dissipation, expected.dissipation);
+            worst.add(
+              (lane(response.contact_strain, i) - expected.contact_strain)
+                .norm());
+          }
+        for (unsigned int n = 0; n < Law::n_tensors; ++n)
+          worst.add((lane(trial.tensors[n], i) - after.tensors[n]).norm());
+        for (unsigned int n = 0; n < Law::n_scalars; ++n)
+          compare(trial.scalars[n], after.scalars[n]);
+      }
+  }
+
+  template <typename Law>
+  bool
+  check_law(const std::string &name, const Law &law)
+  {
+    Random random(1997);
+    Worst  worst(1e-13);
+    for (unsigned int i = 0; i < 2000; ++i)
+      {
+        check_request<Rheology::stress>(law, random, worst);
+        check_request<tangent>(law, random, worst);
+        check_request<potential>(law, random, worst);
+        check_request<energies>(law, random, worst);
+        check_request<all>(law, random, worst);
+      }
+    std::cout << std::left << std::setw(36) << name << worst.verdict()
+              << std::endl;
+    return worst.passed();
+  }
+} // namespace
+
+int
+main()
+{
+  bool passed = true;
+  for (const auto &entry : all_laws())
+    passed &=
+      std::visit([&](const auto &law) { return check_law(entry.name, law); },
+                 entry.law);
+  return passed ? 0 : 1;
+}

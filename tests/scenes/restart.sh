@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# A run that is killed after its second step and resumed on another number of
+# ranks ends with the numbers of an undisturbed run.
+# usage: restart.sh SIGNOTON SCENE
+set -eu
+signoton=$1
+scene=$2
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+
+mpirun -np 2 "$signoton" "$scene" --output "$dir/whole" >"$dir/whole.log"
+
+# the fields of every step take time to write: the run cannot be over
+mpirun -np 1 "$signoton" "$scene" --output "$dir/killed" \
+  --set 'Output/Checkpoint every=1' >"$dir/killed.log" 2>&1 &
+pid=$!
+steps() { sed -n 's/^\([0-9]*\) accepted steps$/\1/p' "$1/numbers" 2>/dev/null || true; }
+for _ in $(seq 3000); do
+  n=$(steps "$dir/killed/checkpoint")
+  [ "${n:-0}" -ge 2 ] && break
+  sleep 0.1
+done
+kill -9 "$pid" 2>/dev/null || true
+wait "$pid" 2>/dev/null || true
+pkill -9 -f "$dir/killed" 2>/dev/null || true
+n=$(steps "$dir/killed/checkpoint")
+echo "killed after step $n"
+[ "${n:-0}" -ge 2 ] || { cat "$dir/killed.log"; exit 1; }
+
+mpirun -np 4 "$signoton" --resume "$dir/killed" >"$dir/resumed.log" ||
+  { cat "$dir/resumed.log"; exit 1; }
+
+# compare the last line, column by column, but for what is no physics
+paste -d '\n' <(head -1 "$dir/whole/statistics.csv") \
+  <(tail -1 "$dir/whole/statistics.csv") \
+  <(tail -1 "$dir/killed/statistics.csv") |
+  awk -F, '
+    NR == 1 { for (i = 1; i <= NF; ++i) name[i] = $i }
+    NR == 2 { for (i = 1; i <= NF; ++i) whole[i] = $i; n = NF }
+    NR == 3 {
+      for (i = 1; i <= n; ++i) {
+        if (name[i] ~ /iterations|seconds|memory|residual|drift|estimated|regularization/)
+          continue
+        scale = whole[i] < 0 ? -whole[i] : whole[i]
+        if (scale < 1e-7) scale = 1e-7
+        d = ($i - whole[i]) / scale
+        if (d < 0) d = -d
+        ++compared
+        if (d > 1e-8) { print "differs:", name[i], whole[i], $i; bad = 1 }
+      }
+      print compared " columns compared"
+      exit bad || compared < 10
+    }'
