@@ -127,10 +127,7 @@ namespace Signoton
       const auto timer = model.ledger.time("assembly");
       model.mechanics->assemble(matrix, regularization);
     }
-    linear_solver.initialize(matrix,
-                             near_null_space,
-                             dim,
-                             model.space->degree);
+    linear_solver.initialize(matrix, near_null_space, model.space->degree);
     assembled = regularization;
   }
 
@@ -176,24 +173,25 @@ namespace Signoton
   {
     const VectorType            force = support_forces(u);
     std::vector<Tensor<1, dim>> result(model.conditions.size());
+    VectorType                  at_boundary(force);
     for (unsigned int i = 0; i < model.conditions.size(); ++i)
-      {
-        const auto &condition = model.conditions[i];
-        for (unsigned int d = 0; d < dim; ++d)
-          if (condition.displacement[d] || condition.symmetry)
-            {
-              ComponentMask mask(dim, false);
-              mask.set(d, true);
-              const IndexSet dofs =
-                DoFTools::extract_boundary_dofs(model.space->dof_handler,
-                                                mask,
-                                                {condition.id});
-              for (const auto dof : dofs)
-                if (force.in_local_range(dof))
-                  result[i][d] += force[dof];
-            }
-        result[i] = Utilities::MPI::sum(result[i], model.communicator);
-      }
+      for (unsigned int d = 0; d < dim; ++d)
+        if (model.conditions[i].displacement[d] || model.conditions[i].symmetry)
+          {
+            ComponentMask mask(dim, false);
+            mask.set(d, true);
+            // the owner of an unknown may not have the boundary face
+            at_boundary = 0.;
+            for (const auto dof :
+                 DoFTools::extract_boundary_dofs(model.space->dof_handler,
+                                                 mask,
+                                                 {model.conditions[i].id}))
+              if (at_boundary.get_partitioner()->in_local_range(dof) ||
+                  at_boundary.get_partitioner()->is_ghost_entry(dof))
+                at_boundary[dof] = 1.;
+            at_boundary.compress(VectorOperation::max);
+            result[i][d] = at_boundary * force;
+          }
     return result;
   }
 

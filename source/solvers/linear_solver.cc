@@ -44,7 +44,6 @@ namespace Signoton
   LinearSolver::initialize(
     const TrilinosWrappers::SparseMatrix   &new_matrix,
     const std::vector<std::vector<double>> &near_null_space,
-    const unsigned int                      n_components,
     const unsigned int                      degree)
   {
     const auto timer = ledger.time("preconditioner");
@@ -79,7 +78,9 @@ namespace Signoton
     // The coarsest matrices are nearly dense: factoring one of deal.II's default
     // size of 2000 costs more than all the rest of the setup.
     list.set("coarse: max size", 200);
-    list.set("PDE equations", static_cast<int>(n_components));
+    // Aggregates are built from single unknowns ("PDE equations" stays 1): at
+    // hanging nodes and symmetry planes some unknowns of a node are
+    // eliminated, and ML refuses incomplete blocks between ranks.
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", static_cast<int>(modes.NumVectors()));
     list.set("null space: vectors", modes.Values());

@@ -55,13 +55,11 @@ namespace Signoton
     /**
      * Prepare for a matrix, which must live as long as solves go on.
      * @param near_null_space vectors of locally owned entries
-     * @param n_components unknowns at a node, numbered consecutively
      * @param degree polynomial degree of the elements
      */
     void
     initialize(const TrilinosWrappers::SparseMatrix   &matrix,
                const std::vector<std::vector<double>> &near_null_space,
-               const unsigned int                      n_components,
                const unsigned int                      degree);
 
     /** Solve to a residual below @p tolerance times that of zero. */
