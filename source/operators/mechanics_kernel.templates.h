@@ -224,6 +224,10 @@ namespace Signoton
                                             const DofIndex    dof_index)
   {
     double sum = 0.;
+    // Not left to the loop, which clears parts of the vector just in time: it
+    // tells by the layout of the vector which unknowns are touched when, and
+    // with one rank both sets of constraints have the same layout.
+    force = 0.;
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &dst, const auto &src, const Range &range) {
         Cell cell(data, dof_index);
@@ -232,8 +236,7 @@ namespace Signoton
         });
       },
       force,
-      displacement,
-      true);
+      displacement);
     return Utilities::MPI::sum(sum, space.communicator);
   }
 
