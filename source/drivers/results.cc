@@ -49,6 +49,22 @@ namespace Signoton
                         ExitStatus::output_failed);
     }
 
+    /** Write a file on the ranks that want to; fail on all or none. */
+    void
+    write_file(const std::string &file_name,
+               const std::string &text,
+               const bool         i_write,
+               const MPI_Comm    &communicator)
+    {
+      std::ofstream file;
+      if (i_write)
+        {
+          file.open(file_name);
+          file << text;
+        }
+      check_written(file, file_name, communicator);
+    }
+
     const std::array<const char *, 6> tensor_names = {
       {"xx", "yy", "zz", "xy", "xz", "yz"}};
   } // namespace
@@ -417,27 +433,26 @@ namespace Signoton
     flags.time  = time;
     flags.cycle = accepted_steps;
     output.set_flags(flags);
-    std::ofstream file(directory + piece(rank));
-    output.write_vtu(file);
-    check_written(file, directory + piece(rank), model.communicator);
+    // Through memory: deal.II's writers answer a full disk with an exception on
+    // the rank that meets it, while the others would wait.
+    std::ostringstream text, record, collection;
+    output.write_vtu(text);
+    write_file(directory + piece(rank), text.str(), true, model.communicator);
 
     snapshots.emplace_back(time, n_ranks == 1 ? piece(0) : base + ".pvtu");
-    std::ofstream record, collection;
-    if (rank == 0)
-      {
-        if (n_ranks > 1)
-          {
-            std::vector<std::string> pieces;
-            for (unsigned int r = 0; r < n_ranks; ++r)
-              pieces.push_back(piece(r));
-            record.open(directory + base + ".pvtu");
-            output.write_pvtu_record(record, pieces);
-          }
-        collection.open(directory + "fields.pvd");
-        DataOutBase::write_pvd_record(collection, snapshots);
-      }
-    check_written(record, directory + base + ".pvtu", model.communicator);
-    check_written(collection, directory + "fields.pvd", model.communicator);
+    std::vector<std::string> pieces;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      pieces.push_back(piece(r));
+    output.write_pvtu_record(record, pieces);
+    write_file(directory + base + ".pvtu",
+               record.str(),
+               rank == 0 && n_ranks > 1,
+               model.communicator);
+    DataOutBase::write_pvd_record(collection, snapshots);
+    write_file(directory + "fields.pvd",
+               collection.str(),
+               rank == 0,
+               model.communicator);
   }
 
   template <int dim>

@@ -1,0 +1,82 @@
+// Output that cannot be written and checkpoints that do not fit: each has its
+// own message and status, and what was written before stays.
+
+#include <signoton/scene/scene.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+using namespace Signoton;
+namespace fs = std::filesystem;
+
+namespace
+{
+  std::ofstream output;
+
+  void
+  run(const std::string &what, const Options &options)
+  {
+    output << what << "\n";
+    try
+      {
+        const ExitStatus status = run_scene(MPI_COMM_WORLD, options);
+        output << "status " << static_cast<int>(status) << "\n";
+      }
+    catch (const UserError &error)
+      {
+        output << error.what() << "status " << static_cast<int>(error.status)
+               << "\n";
+      }
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  output.open("output");
+  for (const char *old : {"results", "good", "file"})
+    fs::remove_all(old);
+
+  Options options;
+  options.scene_file = SIGNOTON_SOURCE_DIR "/tests/scenes/adaptive_plastic.prm";
+  options.overrides  = {"Load steps/End time=0.5", "Linear solver/Method=direct"};
+
+  std::ofstream("file") << "not a directory\n";
+  options.output_directory = "file/results";
+  run("the output directory cannot be made", options);
+
+  // a device that is always full
+  fs::create_directories("results");
+  fs::create_symlink("/dev/full", "results/fields-0001.vtu");
+  options.output_directory = "results";
+  options.overrides.emplace_back("Output/Fields every=1");
+  run("the disk is full when fields are written", options);
+  std::ifstream statistics("results/statistics.csv");
+  unsigned int  n_lines = 0;
+  for (std::string line; std::getline(statistics, line);)
+    ++n_lines;
+  output << "lines of statistics that stay: " << n_lines << "\n";
+
+  options.output_directory = "good";
+  options.overrides        = {"Load steps/End time=0.5",
+                       "Output/Checkpoint every=1"};
+  run("a run with a checkpoint", options);
+
+  options.scene_file       = "good/resolved.prm";
+  options.resume_directory = "good/checkpoint";
+  options.overrides        = {"Discretization/Degree=2"};
+  run("a checkpoint of another degree", options);
+
+  options.overrides        = {};
+  options.resume_directory = "nowhere/checkpoint";
+  run("a checkpoint that is not there", options);
+
+  options.resume_directory = "good/checkpoint";
+  std::ofstream("good/checkpoint/numbers") << "1 format\n";
+  run("a checkpoint that lost a part", options);
+  return 0;
+}
