@@ -39,11 +39,11 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
         if (arguments[i] == "--help" || arguments[i] == "-h")
           text = help;
         else if (arguments[i] == "--version")
-          text = "Signoton " SIGNOTON_VERSION ", deal.II " DEAL_II_PACKAGE_VERSION
-                 "\n";
+          text = "Signoton " SIGNOTON_VERSION
+                 ", deal.II " DEAL_II_PACKAGE_VERSION "\n";
         else if (arguments[i] == "--template")
-          text = scene_template(i + 1 < arguments.size() ? arguments[i + 1] :
-                                                           "");
+          text =
+            scene_template(i + 1 < arguments.size() ? arguments[i + 1] : "");
         else
           continue;
         if (print)
@@ -103,8 +103,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const bool is_root =
-    Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  const bool is_root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   try
     {
       const std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -24,8 +24,9 @@ namespace Signoton
       parser.DefineVar("t", &values[3]);
       for (const auto &[name, value] : constants)
         parser.DefineConst(name, value);
-      parser.DefineFun(
-        "if", [](double c, double a, double b) { return c != 0. ? a : b; });
+      parser.DefineFun("if", [](double c, double a, double b) {
+        return c != 0. ? a : b;
+      });
       parser.DefineFun("floor", [](double a) { return std::floor(a); });
       parser.DefineFun("ceil", [](double a) { return std::ceil(a); });
       parser.DefineFun("pow",
@@ -49,7 +50,7 @@ namespace Signoton
     Constants constants{{"pi", numbers::PI}};
     for (const auto &item : Utilities::split_string_list(text, ','))
       {
-        const auto equal = item.find('=');
+        const auto equal  = item.find('=');
         const auto refuse = [&]() {
           throw UserError(where,
                           "'" + item + "'",

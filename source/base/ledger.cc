@@ -48,8 +48,8 @@ namespace Signoton
   void
   Ledger::bytes(const std::string &what, const std::size_t local_bytes)
   {
-    sizes[what] = Utilities::MPI::sum(static_cast<double>(local_bytes),
-                                      communicator);
+    sizes[what] =
+      Utilities::MPI::sum(static_cast<double>(local_bytes), communicator);
   }
 
   double
@@ -114,8 +114,7 @@ namespace Signoton
     const auto                  put = [&](const std::string &section,
                          const std::string &key,
                          const double       value) {
-      tree.put(boost::property_tree::ptree::path_type(section + "|" + key,
-                                                      '|'),
+      tree.put(boost::property_tree::ptree::path_type(section + "|" + key, '|'),
                value);
     };
     put("run", "ranks", Utilities::MPI::n_mpi_processes(communicator));

@@ -108,10 +108,11 @@ namespace Signoton
       return text;
     };
     std::string best;
-    std::size_t best_distance = std::max<std::size_t>(2, (word.size() + 2) / 3) + 1;
+    std::size_t best_distance =
+      std::max<std::size_t>(2, (word.size() + 2) / 3) + 1;
     for (const auto &candidate : candidates)
       {
-        const std::string a = lower(word), b = lower(candidate);
+        const std::string        a = lower(word), b = lower(candidate);
         std::vector<std::size_t> row(b.size() + 1);
         for (std::size_t j = 0; j <= b.size(); ++j)
           row[j] = j;
@@ -122,10 +123,10 @@ namespace Signoton
             for (std::size_t j = 1; j <= b.size(); ++j)
               {
                 const std::size_t above = row[j];
-                row[j] = std::min({above + 1,
-                                   row[j - 1] + 1,
-                                   diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-                diagonal = above;
+                row[j]                  = std::min({above + 1,
+                                                    row[j - 1] + 1,
+                                                    diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+                diagonal                = above;
               }
           }
         if (row.back() < best_distance)
@@ -161,7 +162,7 @@ namespace Signoton
     std::istringstream stream(text);
     std::string        raw, line;
     unsigned int       number = 0, first_of_line = 0;
-    const auto complain = [&](const std::string &expected,
+    const auto         complain = [&](const std::string &expected,
                               const std::string &hint) {
       throw UserError(name + ", line " + std::to_string(first_of_line),
                       "'" + line + "'",
@@ -226,8 +227,7 @@ namespace Signoton
                       "'Section/Key=value'",
                       "quote the whole assignment, for instance --set "
                       "'Discretization/Degree=2'");
-    Path path =
-      Utilities::split_string_list(assignment.substr(0, equal), '/');
+    Path path = Utilities::split_string_list(assignment.substr(0, equal), '/');
     const std::string key = path.empty() ? "" : path.back();
     if (!path.empty())
       path.pop_back();
@@ -369,11 +369,12 @@ namespace Signoton
           {
             const Tree *next = child(*node, path[depth]);
             if (next == nullptr || is_entry(*next))
-              throw UserError(
-                where(path),
-                "unknown subsection '" + path[depth] + "'",
-                "one of: " + join(names(*node, false), ", "),
-                suggestion(path[depth], names(*node, false), "remove it"));
+              throw UserError(where(path),
+                              "unknown subsection '" + path[depth] + "'",
+                              "one of: " + join(names(*node, false), ", "),
+                              suggestion(path[depth],
+                                         names(*node, false),
+                                         "remove it"));
             node = next;
           }
       }
@@ -394,7 +395,7 @@ namespace Signoton
                                      "all keys with their meaning"));
         for (const auto &section : entry.path)
           handler.enter_subsection(section);
-        bool        fits = true;
+        bool fits = true;
         try
           {
             handler.set(entry.key, entry.value);

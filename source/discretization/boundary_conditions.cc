@@ -152,10 +152,11 @@ namespace Signoton
   bool
   BoundaryCondition<dim>::constrains() const
   {
-    return symmetry ||
-           std::any_of(displacement.begin(),
-                       displacement.end(),
-                       [](const auto &component) { return component != nullptr; });
+    return symmetry || std::any_of(displacement.begin(),
+                                   displacement.end(),
+                                   [](const auto &component) {
+                                     return component != nullptr;
+                                   });
   }
 
   template <int dim>
@@ -204,18 +205,20 @@ namespace Signoton
     double         size = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        const double low = Utilities::MPI::min(
-                       box.get_boundary_points().first[d], communicator),
-                     high = Utilities::MPI::max(
-                       box.get_boundary_points().second[d], communicator);
-        center[d]         = 0.5 * (low + high);
-        size              = std::max(size, 0.5 * (high - low));
+        const double low =
+                       Utilities::MPI::min(box.get_boundary_points().first[d],
+                                           communicator),
+                     high =
+                       Utilities::MPI::max(box.get_boundary_points().second[d],
+                                           communicator);
+        center[d] = 0.5 * (low + high);
+        size      = std::max(size, 0.5 * (high - low));
       }
 
     const unsigned int n_modes = motion_names(dim, axisymmetric).size();
     std::vector<std::vector<double>> modes(
       n_modes, std::vector<double>(dofs.n_elements(), 0.));
-    const auto &fe = dof_handler.get_fe();
+    const auto                          &fe = dof_handler.get_fe();
     std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
@@ -241,9 +244,9 @@ namespace Signoton
                     {
                       const unsigned int next = (axis + 1) % 3,
                                          last = (axis + 2) % 3;
-                      modes[3 + axis][row] = c == next ? -arm[last % dim] :
-                                             c == last ? arm[next % dim] :
-                                                         0.;
+                      modes[3 + axis][row]    = c == next ? -arm[last % dim] :
+                                                c == last ? arm[next % dim] :
+                                                            0.;
                     }
               }
         }
@@ -309,20 +312,22 @@ namespace Signoton
     return result;
   }
 
-#define INSTANTIATE(dim)                                               \
-  template class BoundaryCondition<dim>;                               \
-  template void constrain_displacement<dim>(                           \
-    const Mapping<dim> &,                                              \
-    const DoFHandler<dim> &,                                           \
-    const BoundaryConditions<dim> &,                                   \
-    AffineConstraints<double> &);                                      \
-  template std::vector<std::string> free_rigid_motions<dim>(           \
-    const Mapping<dim> &,                                              \
-    const DoFHandler<dim> &,                                           \
-    const AffineConstraints<double> &,                                 \
-    const bool);                                                       \
-  template std::vector<std::vector<double>> rigid_motions<dim>(        \
-    const Mapping<dim> &, const DoFHandler<dim> &, const IndexSet &, const bool);
+#define INSTANTIATE(dim)                                                     \
+  template class BoundaryCondition<dim>;                                     \
+  template void constrain_displacement<dim>(const Mapping<dim> &,            \
+                                            const DoFHandler<dim> &,         \
+                                            const BoundaryConditions<dim> &, \
+                                            AffineConstraints<double> &);    \
+  template std::vector<std::string> free_rigid_motions<dim>(                 \
+    const Mapping<dim> &,                                                    \
+    const DoFHandler<dim> &,                                                 \
+    const AffineConstraints<double> &,                                       \
+    const bool);                                                             \
+  template std::vector<std::vector<double>> rigid_motions<dim>(              \
+    const Mapping<dim> &,                                                    \
+    const DoFHandler<dim> &,                                                 \
+    const IndexSet &,                                                        \
+    const bool);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -220,12 +220,11 @@ namespace Signoton
       given.is_absolute() ?
                   mesh_file :
                   (std::filesystem::path(file.directory()) / given).string();
-    const auto     refuse       = [&](const std::string &found) {
+    const auto refuse = [&](const std::string &found) {
       throw UserError(file.where(section, "Mesh file"),
                       found,
                       "a gmsh file of " +
-                        std::string(dim == 2 ? "quadrilaterals" :
-                                                     "hexahedra"),
+                        std::string(dim == 2 ? "quadrilaterals" : "hexahedra"),
                       "check the name, relative to the scene file; in a .geo "
                       "file use 'Recombine Surface', transfinite or extruded "
                       "meshes, and physical groups for volumes and "
@@ -271,7 +270,7 @@ namespace Signoton
                         Triangulation<dim> &mesh,
                         BoundaryNames      &names) const
   {
-    const std::string where = file.where(section, "Boundary names");
+    const std::string            where = file.where(section, "Boundary names");
     std::set<types::boundary_id> used;
     for (const auto id : mesh.get_boundary_ids())
       used.insert(id);
@@ -342,7 +341,7 @@ namespace Signoton
                                 const Triangulation<dim> &mesh,
                                 const BoundaryNames      &names) const
   {
-    const std::string where = file.where(section, "Periodic boundaries");
+    const std::string where  = file.where(section, "Periodic boundaries");
     const auto        center = [&](const types::boundary_id id) {
       Point<dim>   sum;
       unsigned int n = 0;

@@ -134,14 +134,17 @@ namespace Signoton
     const QGauss<dim - 1> quadrature(space.degree + 1);
     const auto            flags = update_values | update_quadrature_points |
                        update_JxW_values | update_normal_vectors;
-    FEFaceValues<dim> here(space.mapping, points.fe, quadrature, flags);
+    FEFaceValues<dim>    here(space.mapping, points.fe, quadrature, flags);
     FESubfaceValues<dim> here_part(space.mapping, points.fe, quadrature, flags);
-    FEFaceValues<dim> there(space.mapping, points.fe, quadrature, update_values);
+    FEFaceValues<dim>    there(space.mapping,
+                            points.fe,
+                            quadrature,
+                            update_values);
     FESubfaceValues<dim> there_part(space.mapping,
                                     points.fe,
                                     quadrature,
                                     update_values);
-    FaceTraction<dim> traction(stress);
+    FaceTraction<dim>    traction(stress);
     std::map<types::boundary_id, const BoundaryCondition<dim> *> by_id;
     for (const auto &condition : conditions)
       by_id[condition.id] = &condition;
@@ -156,7 +159,7 @@ namespace Signoton
       return sum;
     };
 
-    Vector<float> indicators(space.mesh.n_active_cells());
+    Vector<float>                     indicators(space.mesh.n_active_cells());
     const std::vector<Tensor<1, dim>> none(quadrature.size());
     for (const auto &cell : points.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -164,14 +167,14 @@ namespace Signoton
           double sum = 0.;
           for (const auto f : cell->face_indices())
             {
-              const double h =
-                cell->face(f)->diameter() / shear_modulus.at(cell->material_id());
+              const double h = cell->face(f)->diameter() /
+                               shear_modulus.at(cell->material_id());
               if (cell->at_boundary(f))
                 {
                   if (cell->has_periodic_neighbor(f))
                     continue;
                   here.reinit(cell, f);
-                  auto mine        = traction(here, here.get_normal_vectors());
+                  auto       mine  = traction(here, here.get_normal_vectors());
                   const auto found = by_id.find(cell->face(f)->boundary_id());
                   subtract_given(found == by_id.end() ? nullptr : found->second,
                                  here,
@@ -182,12 +185,12 @@ namespace Signoton
                 for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
                   {
                     here_part.reinit(cell, f, s);
-                    const auto child =
-                      cell->neighbor_child_on_subface(f, s);
+                    const auto child = cell->neighbor_child_on_subface(f, s);
                     there.reinit(child, cell->neighbor_face_no(f));
                     const auto &n = here_part.get_normal_vectors();
                     sum += 0.25 * h *
-                           square(here_part, traction(here_part, n),
+                           square(here_part,
+                                  traction(here_part, n),
                                   traction(there, n));
                   }
               else
@@ -198,11 +201,10 @@ namespace Signoton
                   const auto  neighbor = cell->neighbor(f);
                   if (cell->neighbor_is_coarser(f))
                     {
-                      const auto where =
-                        cell->neighbor_of_coarser_neighbor(f);
+                      const auto where = cell->neighbor_of_coarser_neighbor(f);
                       there_part.reinit(neighbor, where.first, where.second);
-                      sum += 0.25 * h * square(here, mine,
-                                               traction(there_part, n));
+                      sum +=
+                        0.25 * h * square(here, mine, traction(there_part, n));
                     }
                   else
                     {
@@ -241,9 +243,8 @@ namespace Signoton
           bool               switches = mixed[i];
           for (const auto f : cell->face_indices())
             if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
-              switches |=
-                all_regions[cell->neighbor(f)->active_cell_index()] !=
-                region[i];
+              switches |= all_regions[cell->neighbor(f)->active_cell_index()] !=
+                          region[i];
           if (switches)
             indicators[i] *= region_weight;
           // Half percent steps: cells that are equal by symmetry stay equal.
@@ -272,18 +273,17 @@ namespace Signoton
     return Utilities::MPI::sum(changes, space.communicator) > 0;
   }
 
-#define INSTANTIATE(dim)                                    \
-  template Vector<float> Refinement::traction_jumps<dim>(   \
-    const Space<dim> &,                                     \
-    const PointSpace<dim> &,                                \
-    const VectorType &,                                     \
-    const BoundaryConditions<dim> &,                        \
-    const std::map<types::material_id, double> &);          \
-  template bool Refinement::mark<dim>(                      \
-    Space<dim> &,                                           \
-    Vector<float> &,                                        \
-    const std::vector<unsigned int> &,                      \
-    const std::vector<bool> &) const;
+#define INSTANTIATE(dim)                                                 \
+  template Vector<float> Refinement::traction_jumps<dim>(                \
+    const Space<dim> &,                                                  \
+    const PointSpace<dim> &,                                             \
+    const VectorType &,                                                  \
+    const BoundaryConditions<dim> &,                                     \
+    const std::map<types::material_id, double> &);                       \
+  template bool Refinement::mark<dim>(Space<dim> &,                      \
+                                      Vector<float> &,                   \
+                                      const std::vector<unsigned int> &, \
+                                      const std::vector<bool> &) const;
 
   INSTANTIATE(2)
   INSTANTIATE(3)

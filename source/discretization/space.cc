@@ -41,11 +41,8 @@ namespace Signoton
     mesh_constraints.reinit(relevant_dofs);
     DoFTools::make_hanging_node_constraints(dof_handler, mesh_constraints);
     for (const auto &pair : boundary.periodic)
-      DoFTools::make_periodicity_constraints(dof_handler,
-                                             pair.first,
-                                             pair.second,
-                                             pair.direction,
-                                             mesh_constraints);
+      DoFTools::make_periodicity_constraints(
+        dof_handler, pair.first, pair.second, pair.direction, mesh_constraints);
     mesh_constraints.close();
   }
 

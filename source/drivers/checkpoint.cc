@@ -50,8 +50,7 @@ namespace Signoton
   } // namespace
 
   template <int dim>
-  Checkpoint<dim>::Checkpoint(Model<dim>        &model,
-                              const std::string &directory)
+  Checkpoint<dim>::Checkpoint(Model<dim> &model, const std::string &directory)
     : model(model)
     , directory(directory)
   {}
@@ -143,7 +142,7 @@ namespace Signoton
   Checkpoint<dim>::write(const PointSpace<dim> *history_space,
                          const VectorType      &displacement)
   {
-    namespace fs = std::filesystem;
+    namespace fs                 = std::filesystem;
     const std::string unfinished = directory + ".unfinished";
     const double      estimate =
       16. * (model.space->dof_handler.n_dofs() +
@@ -209,6 +208,10 @@ namespace Signoton
   void
   Checkpoint<dim>::load_mesh()
   {
+    // A run may have been killed while it exchanged the old for the new.
+    const std::string old = directory + ".old";
+    if (!std::filesystem::exists(directory) && std::filesystem::exists(old))
+      directory = old;
     read_numbers();
     model.space->mesh.coarsen_global(100);
     for (const auto &[name, value] : identity(model))

@@ -181,11 +181,12 @@ namespace Signoton
     VectorType u = model.space->make_relevant_vector();
     u.copy_locally_owned_data_from(displacement);
     u.update_ghost_values();
-    const QGauss<dim> quadrature(model.space->degree + 3);
-    Constants         constants;
-    const std::vector<std::string> around(
-      dim, model.space->axisymmetric ? "x" : "1");
-    FunctionParser<dim> weight(dim);
+    const QGauss<dim>              quadrature(model.space->degree + 3);
+    Constants                      constants;
+    const std::vector<std::string> around(dim,
+                                          model.space->axisymmetric ? "x" :
+                                                                      "1");
+    FunctionParser<dim>            weight(dim);
     weight.initialize(dim == 2 ? "x,y" : "x,y,z", around, constants, false);
     const auto norm_of = [&](const VectorType    &v,
                              const Function<dim> &function) {
@@ -236,7 +237,7 @@ namespace Signoton
                                 const StepRecord   &record,
                                 const NewtonResult &newton)
   {
-    const std::array<std::string, 3> axes = {{"x", "y", "z"}};
+    const std::array<std::string, 3>            axes = {{"x", "y", "z"}};
     std::vector<std::pair<std::string, double>> line = {
       {"step", accepted_steps},
       {"time", record.time},
@@ -331,16 +332,17 @@ namespace Signoton
         write_fields(displacement, record.time);
     }
     const double elapsed = model.ledger.total_seconds();
-    const double done    = (record.time - start_time) /
-                        (model.load_steps.end - start_time);
+    const double done =
+      (record.time - start_time) / (model.load_steps.end - start_time);
     screen << std::setw(6) << accepted_steps << std::setw(9)
            << number(record.time, 5) << std::setw(10)
            << model.space->dof_handler.n_dofs() << std::setw(8)
            << newton.iterations() << std::setw(8)
            << newton.most_linear_iterations() << "  " << std::scientific
            << std::setprecision(1) << newton.history.back().residual
-           << std::fixed << std::setw(9) << 100. * record.balance.region_share[0]
-           << " %" << std::setw(11) << elapsed << "  "
+           << std::fixed << std::setw(9)
+           << 100. * record.balance.region_share[0] << " %" << std::setw(11)
+           << elapsed << "  "
            << (is_last ? "-" : duration(elapsed * (1. - done) / done))
            << std::defaultfloat << std::setprecision(6) << std::endl;
     print_newton_history(newton);
@@ -375,10 +377,10 @@ namespace Signoton
         result.access_raw_entry(c) = entries[c];
       return result;
     };
-    const bool any_inelastic = std::any_of(
-      model.materials.begin(), model.materials.end(), [](const auto &material) {
-        return !material.is_elastic();
-      });
+    const bool any_inelastic =
+      std::any_of(model.materials.begin(),
+                  model.materials.end(),
+                  [](const auto &material) { return !material.is_elastic(); });
     const bool any_history = model.mechanics->history_width() > 0;
     for (unsigned int c = 0; c < (dim == 2 ? 4 : 6); ++c)
       {
@@ -408,8 +410,7 @@ namespace Signoton
       }
     if (any_history)
       add("plastic_shear", [&](const auto &a) {
-        return 2. *
-               shear_intensity(dealii::deviator(tensor(a.plastic_strain)));
+        return 2. * shear_intensity(dealii::deviator(tensor(a.plastic_strain)));
       });
     for (const auto &[name, values] : cell_data)
       output.add_data_vector(values, name, DataOut<dim>::type_cell_data);
@@ -424,11 +425,11 @@ namespace Signoton
     const unsigned int n_ranks =
       Utilities::MPI::n_mpi_processes(model.communicator);
     const auto piece = [&](const unsigned int r) {
-      return n_ranks == 1 ? base + ".vtu" :
-                            base + "." + Utilities::int_to_string(r, 4) +
-                              ".vtu";
+      return n_ranks == 1 ?
+               base + ".vtu" :
+               base + "." + Utilities::int_to_string(r, 4) + ".vtu";
     };
-    const std::string directory = model.output.directory + "/";
+    const std::string     directory = model.output.directory + "/";
     DataOutBase::VtkFlags flags;
     flags.time  = time;
     flags.cycle = accepted_steps;
@@ -489,10 +490,10 @@ namespace Signoton
   void
   Results<dim>::resume(const Checkpoint<dim> &checkpoint)
   {
-    resumed        = true;
-    accepted_steps = checkpoint.number("accepted steps");
-    external_work  = checkpoint.number("external work");
-    dissipation    = checkpoint.number("dissipated energy");
+    resumed                  = true;
+    accepted_steps           = checkpoint.number("accepted steps");
+    external_work            = checkpoint.number("external work");
+    dissipation              = checkpoint.number("dissipated energy");
     const std::string prefix = "snapshot ";
     for (const auto &name : checkpoint.names(prefix))
       snapshots.emplace_back(checkpoint.number(name),
@@ -505,8 +506,7 @@ namespace Signoton
         std::ifstream      old(file_name);
         std::ostringstream kept;
         std::string        line;
-        for (unsigned int i = 0;
-             i <= accepted_steps && std::getline(old, line);
+        for (unsigned int i = 0; i <= accepted_steps && std::getline(old, line);
              ++i)
           kept << line << '\n';
         old.close();

@@ -26,12 +26,12 @@ namespace Signoton
                                                owned,
                                                space.relevant_dofs,
                                                space.communicator);
-    DoFTools::make_sparsity_pattern(
-      space.dof_handler,
-      sparsity,
-      space.constraints,
-      false,
-      Utilities::MPI::this_mpi_process(space.communicator));
+    DoFTools::make_sparsity_pattern(space.dof_handler,
+                                    sparsity,
+                                    space.constraints,
+                                    false,
+                                    Utilities::MPI::this_mpi_process(
+                                      space.communicator));
     sparsity.compress();
     matrix.clear();
     matrix.reinit(sparsity);
@@ -182,10 +182,8 @@ namespace Signoton
             mask.set(d, true);
             // the owner of an unknown may not have the boundary face
             at_boundary = 0.;
-            for (const auto dof :
-                 DoFTools::extract_boundary_dofs(model.space->dof_handler,
-                                                 mask,
-                                                 {model.conditions[i].id}))
+            for (const auto dof : DoFTools::extract_boundary_dofs(
+                   model.space->dof_handler, mask, {model.conditions[i].id}))
               if (at_boundary.get_partitioner()->in_local_range(dof) ||
                   at_boundary.get_partitioner()->is_ghost_entry(dof))
                 at_boundary[dof] = 1.;

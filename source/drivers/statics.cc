@@ -39,9 +39,7 @@ namespace Signoton
 
   template <int dim>
   NewtonResult
-  Statics<dim>::solve(const double new_time,
-                      VectorType  &u,
-                      const bool   predict)
+  Statics<dim>::solve(const double new_time, VectorType &u, const bool predict)
   {
     model.set_time(new_time);
     problem.update_loads();
@@ -82,12 +80,12 @@ namespace Signoton
   bool
   Statics<dim>::refine(VectorType &trial)
   {
-    auto         &space = *model.space;
-    bool          changes;
+    auto &space = *model.space;
+    bool  changes;
     {
-      const auto              timer = model.ledger.time("error estimate");
-      const PointSpace<dim>   points(space, dim * (dim + 1) / 2);
-      VectorType              stress = points.make_relevant_vector();
+      const auto            timer = model.ledger.time("error estimate");
+      const PointSpace<dim> points(space, dim * (dim + 1) / 2);
+      VectorType            stress = points.make_relevant_vector();
       model.mechanics->stress_field(trial, points, stress);
       stress.update_ghost_values();
       std::map<types::material_id, double> shear_modulus;
@@ -120,7 +118,7 @@ namespace Signoton
   void
   Statics<dim>::transfer(VectorType &trial)
   {
-    auto       &space  = *model.space;
+    auto        &space = *model.space;
     const double stored_before =
       model.mechanics->energy_balance(displacement).stored;
 
@@ -214,10 +212,10 @@ namespace Signoton
             if (cut)
               step_size = std::min(steps.step_size, 1.5 * dt);
             else if (last_result.iterations() <= steps.easy_iterations)
-              step_size = std::min(steps.maximum_step_size,
-                                   std::max(step_size * steps.growth,
-                                            std::min(steps.step_size,
-                                                     1.5 * step_size)));
+              step_size =
+                std::min(steps.maximum_step_size,
+                         std::max(step_size * steps.growth,
+                                  std::min(steps.step_size, 1.5 * step_size)));
             return true;
           }
         results.failed_line(time + dt, last_result);
@@ -235,7 +233,7 @@ namespace Signoton
     const auto timer = model.ledger.time("results");
     // the trial history must be that of the converged iterate
     VectorType force(trial);
-    record.balance   = model.mechanics->energy_balance(trial);
+    record.balance       = model.mechanics->energy_balance(trial);
     VectorType new_force = problem.internal_force_of_mesh(trial);
     VectorType increment(trial);
     increment -= displacement;

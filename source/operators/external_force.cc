@@ -48,10 +48,7 @@ namespace Signoton
   {
     const auto flags =
       update_values | update_quadrature_points | update_JxW_values;
-    FEValues<dim>     cell_values(space.mapping,
-                              space.fe,
-                              space.quadrature,
-                              flags);
+    FEValues<dim> cell_values(space.mapping, space.fe, space.quadrature, flags);
     FEFaceValues<dim> face_values(space.mapping,
                                   space.fe,
                                   QGauss<dim - 1>(space.degree + 2),
@@ -65,7 +62,7 @@ namespace Signoton
       density[material.id] = material.density;
 
     force = 0.;
-    Vector<double> cell_force(space.fe.n_dofs_per_cell());
+    Vector<double>              cell_force(space.fe.n_dofs_per_cell());
     std::vector<Tensor<1, dim>> cell_density(space.quadrature.size());
     std::vector<Tensor<1, dim>> face_density(face_values.n_quadrature_points);
     std::vector<types::global_dof_index> dofs(cell_force.size());
@@ -77,7 +74,8 @@ namespace Signoton
           if (gravity && density[cell->material_id()] > 0.)
             {
               cell_values.reinit(cell);
-              for (const unsigned int q : cell_values.quadrature_point_indices())
+              for (const unsigned int q :
+                   cell_values.quadrature_point_indices())
                 cell_density[q] =
                   density[cell->material_id()] *
                   vector_value(*gravity, cell_values.quadrature_point(q));
@@ -114,14 +112,13 @@ namespace Signoton
     force.compress(VectorOperation::add);
   }
 
-#define INSTANTIATE(dim)                               \
-  template void external_force<dim>(                   \
-    const Space<dim> &,                                \
-    const BoundaryConditions<dim> &,                   \
-    const std::vector<Rheology::Material> &,           \
-    const Function<dim> *,                             \
-    const AffineConstraints<double> &,                 \
-    VectorType &);
+#define INSTANTIATE(dim)                                                     \
+  template void external_force<dim>(const Space<dim> &,                      \
+                                    const BoundaryConditions<dim> &,         \
+                                    const std::vector<Rheology::Material> &, \
+                                    const Function<dim> *,                   \
+                                    const AffineConstraints<double> &,       \
+                                    VectorType &);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

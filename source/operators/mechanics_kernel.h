@@ -90,11 +90,11 @@ namespace Signoton
     /** What a sweep does with the response at each point. */
     struct Point
     {
-      unsigned int                       batch;
-      unsigned int                       q;
-      Number                             weight; ///< volume of the point in m^3
-      const Rheology::Response<Number>  &response;
-      const Tensor2<Number>             *plastic_strain; ///< or nullptr
+      unsigned int                      batch;
+      unsigned int                      q;
+      Number                            weight; ///< volume of the point in m^3
+      const Rheology::Response<Number> &response;
+      const Tensor2<Number>            *plastic_strain; ///< or nullptr
     };
     using Visitor = std::function<void(const Point &)>;
 
@@ -175,14 +175,14 @@ namespace Signoton
     std::vector<Rheology::Law>             laws;
     std::vector<unsigned int>              material_of_id;
 
-    Data                                   data;
-    std::vector<unsigned int>              material_of_batch;
+    Data                      data;
+    std::vector<unsigned int> material_of_batch;
     /** Elastic tangents by material: regularization, and what linear
      *  materials have instead of a tangent at every point. */
     std::vector<std::array<Number, n_tangent_entries<Embedding>>>
-                           elastic_tangents;
-    PointHistory           history;
-    AlignedVector<Number>  tangents;
+                             elastic_tangents;
+    PointHistory             history;
+    AlignedVector<Number>    tangents;
     std::vector<std::size_t> tangent_offset;
   };
 } // namespace Signoton

@@ -34,9 +34,9 @@ namespace Signoton
     laws.clear();
     for (const auto &material : materials)
       laws.push_back(material.law(
-        ratio ? std::optional<double>(
-                  std::max(*ratio, material.binder_ratio())) :
-                ratio));
+        ratio ?
+          std::optional<double>(std::max(*ratio, material.binder_ratio())) :
+          ratio));
   }
 
   template <typename Embedding, int degree>
@@ -80,9 +80,7 @@ namespace Signoton
           material_of_id[data.get_cell_iterator(batch, 0)->material_id()];
         material_of_batch[batch] = material;
         widths[batch]            = std::visit(
-          [](const auto &law) {
-            return width<std::decay_t<decltype(law)>>();
-          },
+          [](const auto &law) { return width<std::decay_t<decltype(law)>>(); },
           laws[material]);
         const bool linear =
           std::holds_alternative<Rheology::Elastic>(laws[material]);
@@ -120,9 +118,7 @@ namespace Signoton
 
   template <typename Embedding, int degree>
   template <typename Law>
-  Rheology::History<
-    Law,
-    typename MechanicsKernel<Embedding, degree>::Number>
+  Rheology::History<Law, typename MechanicsKernel<Embedding, degree>::Number>
   MechanicsKernel<Embedding, degree>::read_history(const Number *values)
   {
     Rheology::History<Law, Number> result;
@@ -169,7 +165,7 @@ namespace Signoton
   {
     if constexpr (Embedding::axisymmetric)
       {
-        const Number        around = 2. * numbers::PI * cell.quadrature_point(q)[0];
+        const Number around = 2. * numbers::PI * cell.quadrature_point(q)[0];
         Tensor<1, 2, Number> hoop;
         hoop[0] = 2. * numbers::PI * stress.access_raw_entry(2);
         cell.submit_value(hoop, q);
@@ -243,17 +239,15 @@ namespace Signoton
   template <typename Embedding, int degree>
   template <unsigned int request, typename Law>
   double
-  MechanicsKernel<Embedding, degree>::update_run(
-    const Law        &law,
-    Cell             &cell,
-    const Range      &run,
-    const VectorType &displacement,
-    VectorType       &force)
+  MechanicsKernel<Embedding, degree>::update_run(const Law        &law,
+                                                 Cell             &cell,
+                                                 const Range      &run,
+                                                 const VectorType &displacement,
+                                                 VectorType       &force)
   {
-    constexpr unsigned int       n_tangent = n_tangent_entries<Embedding>;
-    constexpr bool               linear =
-      std::is_same_v<Law, Rheology::Elastic>;
-    Rheology::Response<Number>     response;
+    constexpr unsigned int     n_tangent = n_tangent_entries<Embedding>;
+    constexpr bool             linear = std::is_same_v<Law, Rheology::Elastic>;
+    Rheology::Response<Number> response;
     Rheology::History<Law, Number> next;
     double                         sum = 0.;
     for (unsigned int batch = run.first; batch < run.second; ++batch)
@@ -264,11 +258,11 @@ namespace Signoton
         Number potential = 0.;
         for (unsigned int q = 0; q < cell.n_q_points; ++q)
           {
-            law.template update<request>(
-              strain(cell, q),
-              read_history<Law>(history.accepted(batch, q)),
-              next,
-              response);
+            law.template update<request>(strain(cell, q),
+                                         read_history<Law>(
+                                           history.accepted(batch, q)),
+                                         next,
+                                         response);
             write_history<Law>(next, history.trial(batch, q));
             if constexpr ((request & Rheology::tangent) && !linear)
               pack_tangent<Embedding>(response.tangent,
@@ -281,7 +275,8 @@ namespace Signoton
         cell.integrate(cell_flags<Embedding>);
         cell.distribute_local_to_global(force);
         if constexpr (request & Rheology::potential)
-          for (unsigned int i = 0; i < data.n_active_entries_per_cell_batch(batch);
+          for (unsigned int i = 0;
+               i < data.n_active_entries_per_cell_batch(batch);
                ++i)
             sum += potential[i];
       }
@@ -306,9 +301,8 @@ namespace Signoton
 
   template <typename Embedding, int degree>
   void
-  MechanicsKernel<Embedding, degree>::reactions(
-    const VectorType &displacement,
-    VectorType       &force)
+  MechanicsKernel<Embedding, degree>::reactions(const VectorType &displacement,
+                                                VectorType       &force)
   {
     sweep<Rheology::stress>(displacement, force, mesh_constraints);
   }
@@ -316,12 +310,11 @@ namespace Signoton
   template <typename Embedding, int degree>
   template <typename Law>
   void
-  MechanicsKernel<Embedding, degree>::visit_run(
-    const Law        &law,
-    Cell             &cell,
-    const Range      &run,
-    const VectorType &displacement,
-    const Visitor    &visitor)
+  MechanicsKernel<Embedding, degree>::visit_run(const Law        &law,
+                                                Cell             &cell,
+                                                const Range      &run,
+                                                const VectorType &displacement,
+                                                const Visitor    &visitor)
   {
     Rheology::Response<Number>     response;
     Rheology::History<Law, Number> next;
@@ -377,11 +370,11 @@ namespace Signoton
     for (unsigned int q = 0; q < cell.n_q_points; ++q)
       {
         const Tensor2<Number> increment = strain(cell, q);
-        const Number         *packed =
-          linear ? elastic.data() :
-                            tangents.data() + tangent_offset[batch] +
-                     q * n_tangent_entries<Embedding>;
-        Tensor2<Number> stress =
+        const Number         *packed    = linear ?
+                                            elastic.data() :
+                                            tangents.data() + tangent_offset[batch] +
+                                   q * n_tangent_entries<Embedding>;
+        Tensor2<Number>       stress =
           apply_packed_tangent<Embedding>(packed, increment);
         if (regularization > 0.)
           stress += Number(regularization) *
@@ -393,10 +386,9 @@ namespace Signoton
 
   template <typename Embedding, int degree>
   void
-  MechanicsKernel<Embedding, degree>::tangent_loop(
-    const VectorType &increment,
-    VectorType       &force,
-    const bool        with_lift) const
+  MechanicsKernel<Embedding, degree>::tangent_loop(const VectorType &increment,
+                                                   VectorType       &force,
+                                                   const bool with_lift) const
   {
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &dst, const auto &src, const Range &range) {
@@ -419,9 +411,8 @@ namespace Signoton
 
   template <typename Embedding, int degree>
   void
-  MechanicsKernel<Embedding, degree>::apply_tangent(
-    const VectorType &increment,
-    VectorType       &force) const
+  MechanicsKernel<Embedding, degree>::apply_tangent(const VectorType &increment,
+                                                    VectorType &force) const
   {
     tangent_loop(increment, force, false);
   }

@@ -220,9 +220,9 @@ namespace Signoton::Rheology
       if (!given(key))
         refuse(key,
                "a value, since Rheology is '" + rheology + "'" +
-                 (is_elastic() ? "" :
-                                 " and Admissible set '" + admissible_set +
-                                   "'"),
+                 (is_elastic() ?
+                    "" :
+                    " and Admissible set '" + admissible_set + "'"),
                "add 'set " + key + " = ...'");
     for (const std::string &key : file.keys(path))
       if (!contains(required, key) && !contains(optional, key))
@@ -320,8 +320,8 @@ namespace Signoton::Rheology
   Law
   Material::law(const std::optional<double> &ratio) const
   {
-    const Moduli spring = elasticity();
-    const Moduli parallel = binder(ratio);
+    const Moduli spring        = elasticity();
+    const Moduli parallel      = binder(ratio);
     const auto   principal_set = [&]() {
       if (admissible_set == "coulomb mohr")
         return PrincipalSet::coulomb_mohr(friction_angle * degree, apex());
@@ -345,8 +345,9 @@ namespace Signoton::Rheology
         if (admissible_set == "mises schleicher")
           return SpringAndProjection<MisesSchleicherCone, Memory::none>(
             spring, parallel, cone());
-        return SpringAndProjection<PrincipalSet, Memory::none>(
-          spring, parallel, principal_set());
+        return SpringAndProjection<PrincipalSet, Memory::none>(spring,
+                                                               parallel,
+                                                               principal_set());
       }
     if (admissible_set == "mises schleicher")
       return SpringAndProjection<MisesSchleicherCone, Memory::all>(spring,
@@ -397,9 +398,8 @@ namespace Signoton::Rheology
       text << "; binder k = " << binder_bulk_modulus
            << " Pa, mu = " << binder_shear_modulus << " Pa";
     if (isotropic_hardening_modulus > 0. || kinematic_hardening_modulus > 0.)
-      text << "; hardening " << isotropic_hardening_modulus
-           << " Pa isotropic, " << kinematic_hardening_modulus
-           << " Pa kinematic";
+      text << "; hardening " << isotropic_hardening_modulus << " Pa isotropic, "
+           << kinematic_hardening_modulus << " Pa kinematic";
     return text.str();
   }
 } // namespace Signoton::Rheology

@@ -21,7 +21,7 @@ namespace Signoton
     }
 
     std::string
-    names_of(const std::vector<Rheology::Material>               &materials,
+    names_of(const std::vector<Rheology::Material>                 &materials,
              const std::function<bool(const Rheology::Material &)> &select)
     {
       std::vector<std::string> names;
@@ -43,9 +43,8 @@ namespace Signoton
       names_of(materials, [](const auto &m) { return m.has_cone(); });
     const auto plastic =
       names_of(materials, [](const auto &m) { return !m.is_reversible(); });
-    const auto binder = names_of(materials, [](const auto &m) {
-      return m.binder_ratio() < 1.;
-    });
+    const auto binder =
+      names_of(materials, [](const auto &m) { return m.binder_ratio() < 1.; });
     const auto heavy =
       names_of(materials, [](const auto &m) { return m.density > 0.; });
     const bool gravity = model.gravity && !heavy.empty();
@@ -53,37 +52,36 @@ namespace Signoton
       model.refinement.cycles(1) > 0 || model.refinement.is_used_later();
 
     const unsigned int number = sizeof(double);
-    return {
-      {"elasticity", true, "every material has a spring", 0},
-      {"rigid contact (no tension)",
-       !contact.empty(),
-       contact.empty() ? "no granular rheology" : "materials " + contact,
-       0},
-      {"consistent tangent",
-       !inelastic.empty(),
-       inelastic.empty() ? "all materials are linear" :
-                           "materials " + inelastic,
-       inelastic.empty() ? 0 : tangent_entries(*model.space) * number},
-      {"history",
-       !plastic.empty(),
-       plastic.empty() ? "no plastic hinge: the response is reversible" :
-                         "plastic hinge in " + plastic,
-       2 * model.mechanics->history_width() * number},
-      {"proportional binder",
-       !binder.empty(),
-       binder.empty() ? "no binder" : "materials " + binder,
-       0},
-      {"gravity",
-       gravity,
-       gravity                ? "Loads / Gravity on " + heavy :
-       model.gravity != nullptr ? "no material has a density" :
-                                "no Loads / Gravity",
-       0},
-      {"adaptive mesh",
-       adaptive,
-       adaptive ? "Refinement / Cycles" : "no Refinement / Cycles",
-       0},
-      {"inertia", false, "Analysis = statics", 0}};
+    return {{"elasticity", true, "every material has a spring", 0},
+            {"rigid contact (no tension)",
+             !contact.empty(),
+             contact.empty() ? "no granular rheology" : "materials " + contact,
+             0},
+            {"consistent tangent",
+             !inelastic.empty(),
+             inelastic.empty() ? "all materials are linear" :
+                                 "materials " + inelastic,
+             inelastic.empty() ? 0 : tangent_entries(*model.space) * number},
+            {"history",
+             !plastic.empty(),
+             plastic.empty() ? "no plastic hinge: the response is reversible" :
+                               "plastic hinge in " + plastic,
+             2 * model.mechanics->history_width() * number},
+            {"proportional binder",
+             !binder.empty(),
+             binder.empty() ? "no binder" : "materials " + binder,
+             0},
+            {"gravity",
+             gravity,
+             gravity                  ? "Loads / Gravity on " + heavy :
+             model.gravity != nullptr ? "no material has a density" :
+                                        "no Loads / Gravity",
+             0},
+            {"adaptive mesh",
+             adaptive,
+             adaptive ? "Refinement / Cycles" : "no Refinement / Cycles",
+             0},
+            {"inertia", false, "Analysis = statics", 0}};
   }
 
   template <int dim>
@@ -119,8 +117,8 @@ namespace Signoton
     const double row = dim * std::pow(model.space->degree == 1 ? 3. : 4., dim);
     out << "\nUnknowns " << n << ", cells " << cells << ", points " << points
         << "\nMemory forecast: points " << points * bytes / 1e6
-        << " MB, matrix " << 12. * n * row / 1e6
-        << " MB, vectors " << 20. * 8. * n / 1e6 << " MB\n";
+        << " MB, matrix " << 12. * n * row / 1e6 << " MB, vectors "
+        << 20. * 8. * n / 1e6 << " MB\n";
     return out.str();
   }
 

@@ -224,9 +224,7 @@ namespace Signoton
     }
     check_materials();
     for (auto &condition : model.conditions)
-      condition.initialize(model.file,
-                           space.boundary.names,
-                           constants);
+      condition.initialize(model.file, space.boundary.names, constants);
     model.mechanics = make_mechanics(space, model.materials);
 
     const auto timer = model.ledger.time("setup");
@@ -269,8 +267,7 @@ namespace Signoton
       Scene<dim> scene(communicator, file);
       if (scene.model.output.directory.empty())
         scene.model.output.directory =
-          "output/" +
-          std::filesystem::path(options.scene_file).stem().string();
+          "output/" + std::filesystem::path(options.scene_file).stem().string();
       scene.build();
       screen << "Signoton " SIGNOTON_VERSION " on "
              << Utilities::MPI::n_mpi_processes(communicator) << " ranks: "

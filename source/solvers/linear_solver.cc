@@ -54,8 +54,8 @@ namespace Signoton
         (parameters.method == "auto" && matrix->m() <= parameters.direct_limit))
       {
         direct_control = std::make_unique<SolverControl>(1, 0.);
-        direct = std::make_unique<TrilinosWrappers::SolverDirect>(
-          *direct_control);
+        direct =
+          std::make_unique<TrilinosWrappers::SolverDirect>(*direct_control);
         direct->initialize(*matrix);
         return;
       }

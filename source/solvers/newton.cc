@@ -74,9 +74,8 @@ namespace Signoton
         const double slope = gradient * dx;
         const double noise =
           1e-13 * std::max(std::abs(energy), std::abs(energy_0));
-        const bool decrease =
-          energy <= energy_0 + 1e-4 * alpha * slope_0 &&
-          std::abs(alpha * slope_0) > noise;
+        const bool decrease = energy <= energy_0 + 1e-4 * alpha * slope_0 &&
+                              std::abs(alpha * slope_0) > noise;
         const bool flat = std::abs(slope) <= 0.5 * std::abs(slope_0) &&
                           energy <= energy_0 + noise;
         if (std::isfinite(energy) && (decrease || flat))
@@ -85,11 +84,10 @@ namespace Signoton
               energy = problem.evaluate(x, gradient, true);
             return alpha;
           }
-        const double secant =
-          std::isfinite(slope) && slope > slope_0 ?
-            alpha * slope_0 / (slope_0 - slope) :
-            0.;
-        alpha = std::clamp(secant, 0.1 * alpha, 0.7 * alpha);
+        const double secant = std::isfinite(slope) && slope > slope_0 ?
+                                alpha * slope_0 / (slope_0 - slope) :
+                                0.;
+        alpha               = std::clamp(secant, 0.1 * alpha, 0.7 * alpha);
       }
     x      = x_0;
     energy = problem.evaluate(x, gradient, true);
@@ -105,8 +103,7 @@ namespace Signoton
     double     energy = problem.evaluate(x, gradient, true);
     double     scale  = problem.force_scale(x);
     double     norm = gradient.l2_norm(), previous_norm = norm;
-    result.history.push_back(
-      {scale > 0. ? norm / scale : 0., 0, 0.});
+    result.history.push_back({scale > 0. ? norm / scale : 0., 0, 0.});
     for (unsigned int iteration = 0;; ++iteration)
       {
         if (!std::isfinite(norm))
@@ -121,8 +118,8 @@ namespace Signoton
           }
         if (iteration == parameters.maximum_iterations)
           {
-            result.reason = "no convergence in " + std::to_string(iteration) +
-                            " iterations";
+            result.reason =
+              "no convergence in " + std::to_string(iteration) + " iterations";
             return result;
           }
 

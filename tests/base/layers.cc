@@ -20,7 +20,7 @@ main()
                                            "solvers",
                                            "drivers",
                                            "scene"};
-  const auto rank = [&](const std::string &layer) {
+  const auto                     rank   = [&](const std::string &layer) {
     return std::find(layers.begin(), layers.end(), layer) - layers.begin();
   };
   const std::regex include_line(R"(#include <signoton/([a-z]+)/.*)");

@@ -43,7 +43,8 @@ main(int argc, char **argv)
 
   Options options;
   options.scene_file = SIGNOTON_SOURCE_DIR "/tests/scenes/adaptive_plastic.prm";
-  options.overrides  = {"Load steps/End time=0.5", "Linear solver/Method=direct"};
+  options.overrides  = {"Load steps/End time=0.5",
+                        "Linear solver/Method=direct"};
 
   std::ofstream("file") << "not a directory\n";
   options.output_directory = "file/results";
@@ -62,8 +63,7 @@ main(int argc, char **argv)
   output << "lines of statistics that stay: " << n_lines << "\n";
 
   options.output_directory = "good";
-  options.overrides        = {"Load steps/End time=0.5",
-                       "Output/Checkpoint every=1"};
+  options.overrides = {"Load steps/End time=0.5", "Output/Checkpoint every=1"};
   run("a run with a checkpoint", options);
 
   options.scene_file       = "good/resolved.prm";

@@ -93,8 +93,7 @@ namespace
             {
               strain = start - length * before / stiffness * control.direction;
               length /= 2.;
-            }
-          while (
+          } while (
             !(std::abs(residual()) < (1. - .1 * length) * std::abs(before)) &&
             length > 1e-4);
           if (length <= 1e-4) // no descent: round-off, or a failed row below

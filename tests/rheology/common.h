@@ -65,8 +65,7 @@ namespace Signoton::Testing
               x = uniform();
               norm += x * x;
             }
-        }
-      while (norm > 1. || norm < 1e-2);
+      } while (norm > 1. || norm < 1e-2);
       for (double &x : q)
         x /= std::sqrt(norm);
       Tensor<2, 3> r;

@@ -59,11 +59,11 @@ namespace
         if (!effect.on && effect.bytes_per_point != 0)
           return false;
       }
-    const unsigned int n_points = model.space->mesh.n_active_cells() *
-                                  model.space->quadrature.size();
-    std::cout << "  allocated for history: "
-              << with_tangent.history / n_points << ", for tangents: "
-              << with_tangent.tangent / n_points << " bytes a point\n";
+    const unsigned int n_points =
+      model.space->mesh.n_active_cells() * model.space->quadrature.size();
+    std::cout << "  allocated for history: " << with_tangent.history / n_points
+              << ", for tangents: " << with_tangent.tangent / n_points
+              << " bytes a point\n";
     // the bill is what is allocated; tangents only once one is asked for
     return with_tangent.history == history * n_points &&
            with_tangent.tangent == tangent * n_points &&

@@ -63,14 +63,12 @@ main(int argc, char **argv)
   const std::vector<std::string>   common = {"Load steps/Step size=1",
                                              "Refinement/Cycles in first step=0",
                                              "Linear solver/Method=cg"};
-  bool                             ok = true;
+  bool                             ok     = true;
   for (const std::string degree : {"1", "2"})
     {
       auto settings = common;
       settings.push_back("Discretization/Degree=" + degree);
-      const bool good = sweep("adaptive_granular",
-                              {"1", "2", "3"},
-                              settings);
+      const bool good = sweep("adaptive_granular", {"1", "2", "3"}, settings);
       output << "plane strain, degree " << degree << ": "
              << (good ? "ok" : "FAILED") << "\n";
       ok &= good;

@@ -72,8 +72,8 @@ namespace PhysicalNumbers
   inline bool
   is_physical(const std::string &name)
   {
-    for (const char *word : {"iterations", "seconds", "residual", "memory",
-                             "regularization"})
+    for (const char *word :
+         {"iterations", "seconds", "residual", "memory", "regularization"})
       if (name.find(word) != std::string::npos)
         return false;
     return true;
@@ -89,11 +89,11 @@ namespace PhysicalNumbers
     for (const auto &[name, number] : line)
       if (is_physical(name))
         {
-          const double cut =
-            name == "relative L2 error" || name == "L2 error" ||
-                group(name) == "share of" ?
-              noise :
-              noise * scale[group(name)];
+          const double cut = name == "relative L2 error" ||
+                                 name == "L2 error" ||
+                                 group(name) == "share of" ?
+                               noise :
+                               noise * scale[group(name)];
           out << "  " << name << ": ";
           if (std::abs(number) <= cut)
             out << "0\n";

@@ -44,10 +44,10 @@ namespace Signoton
      *  @param shear_modulus by material id, in Pa */
     template <int dim>
     static Vector<float>
-    traction_jumps(const Space<dim>                        &space,
-                   const PointSpace<dim>                   &points,
-                   const VectorType                        &stress,
-                   const BoundaryConditions<dim>           &conditions,
+    traction_jumps(const Space<dim>                           &space,
+                   const PointSpace<dim>                      &points,
+                   const VectorType                           &stress,
+                   const BoundaryConditions<dim>              &conditions,
                    const std::map<types::material_id, double> &shear_modulus);
 
     /**

@@ -102,8 +102,7 @@ namespace Signoton
                     const NewtonResult &newton);
 
     void
-    append_statistics(
-      const std::vector<std::pair<std::string, double>> &line);
+    append_statistics(const std::vector<std::pair<std::string, double>> &line);
 
     Model<dim>        &model;
     ConditionalOStream screen;

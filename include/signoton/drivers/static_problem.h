@@ -72,7 +72,7 @@ namespace Signoton
     std::vector<std::vector<double>> near_null_space;
     /** Regularization that the matrix was assembled with, none if the point
      *  of linearization has moved since. */
-    std::optional<double>            assembled;
+    std::optional<double> assembled;
   };
 } // namespace Signoton
 

@@ -54,18 +54,18 @@ namespace Signoton
     void
     accept(const VectorType &trial, const double dt);
 
-    Model<dim>                       &model;
-    StaticProblem<dim>                problem;
-    Newton                            newton;
-    std::unique_ptr<PointSpace<dim>>  history_space;
-    Results<dim>                      results;
+    Model<dim>                      &model;
+    StaticProblem<dim>               problem;
+    Newton                           newton;
+    std::unique_ptr<PointSpace<dim>> history_space;
+    Results<dim>                     results;
 
     StepRecord   record;
     NewtonResult last_result;
     VectorType   displacement; ///< accepted
     VectorType   mesh_force;   ///< accepted, for the work of loads
-    double       time           = 0.;
-    double       step_size      = 0.;
+    double       time      = 0.;
+    double       step_size = 0.;
   };
 } // namespace Signoton
 

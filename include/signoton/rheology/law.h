@@ -158,10 +158,11 @@ namespace Signoton::Rheology
       if constexpr (n_scalars > 0)
         trial.scalars[0] = projection.hardening;
       if constexpr (request & tangent)
-        response.tangent = to_set.both_sides(projection.tangent) +
-                           isotropic_tensor<Number>(
-                             Number(spring.bulk * to_spring.spherical),
-                             Number(2. * spring.shear * to_spring.deviatoric));
+        response.tangent =
+          to_set.both_sides(projection.tangent) +
+          isotropic_tensor<Number>(Number(spring.bulk * to_spring.spherical),
+                                   Number(2. * spring.shear *
+                                          to_spring.deviatoric));
       if constexpr (request & potential)
         response.potential =
           0.5 * (to_spring(s) * strain) +
@@ -237,15 +238,15 @@ namespace Signoton::Rheology
 
   /** Every law with a closed form. The choice is made once for a run of cells,
    *  never inside the loop over their points. */
-  using Law = std::variant<
-    Elastic,
-    SpringAndProjection<MisesSchleicherCone, Memory::none>,
-    SpringAndProjection<PrincipalSet, Memory::none>,
-    SpringAndProjection<MisesSchleicherCone, Memory::cylinder>,
-    SpringAndProjection<VonMisesCylinder<false>, Memory::all>,
-    SpringAndProjection<VonMisesCylinder<true>, Memory::all>,
-    SpringAndProjection<MisesSchleicherCone, Memory::all>,
-    SpringAndProjection<PrincipalSet, Memory::all>>;
+  using Law =
+    std::variant<Elastic,
+                 SpringAndProjection<MisesSchleicherCone, Memory::none>,
+                 SpringAndProjection<PrincipalSet, Memory::none>,
+                 SpringAndProjection<MisesSchleicherCone, Memory::cylinder>,
+                 SpringAndProjection<VonMisesCylinder<false>, Memory::all>,
+                 SpringAndProjection<VonMisesCylinder<true>, Memory::all>,
+                 SpringAndProjection<MisesSchleicherCone, Memory::all>,
+                 SpringAndProjection<PrincipalSet, Memory::all>>;
 } // namespace Signoton::Rheology
 
 #endif

@@ -78,23 +78,23 @@ namespace Signoton::Rheology
     double
     apex() const;
 
-    std::string rheology                     = "elastic";
-    std::string admissible_set               = "mises schleicher";
-    std::string binder_kind                  = "none";
-    double      bulk_modulus                 = 0.;
-    double      shear_modulus                = 0.;
-    double      young_modulus                = 0.;
-    double      poisson_ratio                = 0.;
-    double      friction_parameter           = 0.;
-    double      friction_angle               = 0.;
-    double      cohesion                     = 0.;
-    double      tensile_strength             = 0.;
-    double      shear_strength               = 0.;
-    double      proportional_binder          = 1e-3;
-    double      binder_bulk_modulus          = 0.;
-    double      binder_shear_modulus         = 0.;
-    double      isotropic_hardening_modulus  = 0.;
-    double      kinematic_hardening_modulus  = 0.;
+    std::string rheology                    = "elastic";
+    std::string admissible_set              = "mises schleicher";
+    std::string binder_kind                 = "none";
+    double      bulk_modulus                = 0.;
+    double      shear_modulus               = 0.;
+    double      young_modulus               = 0.;
+    double      poisson_ratio               = 0.;
+    double      friction_parameter          = 0.;
+    double      friction_angle              = 0.;
+    double      cohesion                    = 0.;
+    double      tensile_strength            = 0.;
+    double      shear_strength              = 0.;
+    double      proportional_binder         = 1e-3;
+    double      binder_bulk_modulus         = 0.;
+    double      binder_shear_modulus        = 0.;
+    double      isotropic_hardening_modulus = 0.;
+    double      kinematic_hardening_modulus = 0.;
   };
 } // namespace Signoton::Rheology
 

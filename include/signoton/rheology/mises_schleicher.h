@@ -42,10 +42,10 @@ namespace Signoton::Rheology
      * @param apex     $p_0 \ge 0$ in Pa
      * @param shear_strength $\tau_Y$ in Pa; infinite for the bare cone
      */
-    MisesSchleicherCone(const double friction,
-                        const double apex,
-                        const double shear_strength =
-                          std::numeric_limits<double>::infinity())
+    MisesSchleicherCone(
+      const double friction,
+      const double apex,
+      const double shear_strength = std::numeric_limits<double>::infinity())
       : friction(friction)
       , apex(apex)
       , shear_strength(shear_strength)
@@ -63,8 +63,8 @@ namespace Signoton::Rheology
       const Number          tau      = shear_intensity(deviator);
       result.potential_correction    = 0.;
 
-      const Number strength = std::min(Number(friction * P),
-                                       Number(shear_strength));
+      const Number strength =
+        std::min(Number(friction * P), Number(shear_strength));
       if (all_not_greater(tau, strength))
         {
           result.stress = trial;
@@ -95,11 +95,9 @@ namespace Signoton::Rheology
         return select_if_not_greater(tau, strength, inside, value);
       };
 
-      const Number safe_tau    = select_if_less(zero, tau, tau, one);
-      const Number cut         = Number(std::isfinite(shear_strength) ?
-                                          shear_strength :
-                                          0.) /
-                         safe_tau;
+      const Number safe_tau = select_if_less(zero, tau, tau, one);
+      const Number cut =
+        Number(std::isfinite(shear_strength) ? shear_strength : 0.) / safe_tau;
       const Number face_scale  = friction * P_face / safe_tau;
       const Number corner_P    = std::isfinite(P_corner) ? P_corner : 0.;
       const Number new_P       = pick(corner_P, P_face, zero, P, P);

@@ -135,9 +135,9 @@ namespace Signoton::Rheology
     bool
     is_clearly_inside(const Tensor2<> &trial) const
     {
-      const double mean   = trace(trial) / 3. - apex;
-      const double radius = 2. / std::sqrt(3.) *
-                            shear_intensity(deviatoric_part(trial));
+      const double mean = trace(trial) / 3. - apex;
+      const double radius =
+        2. / std::sqrt(3.) * shear_intensity(deviatoric_part(trial));
       return (1. - m) * mean + (1. + m) * radius <= bound;
     }
 
@@ -157,9 +157,9 @@ namespace Signoton::Rheology
           return Region::interior;
         }
 
-      const Vector3 E_a = {{lambda * (1. - m) + mu2,
-                            lambda * (1. - m),
-                            lambda * (1. - m) - mu2 * m}};
+      const Vector3 E_a   = {{lambda * (1. - m) + mu2,
+                              lambda * (1. - m),
+                              lambda * (1. - m) - mu2 * m}};
       const double  a_E_a = E_a[0] - m * E_a[2];
       for (unsigned int i = 0; i < 3; ++i)
         x[i] = y[i] - excess / a_E_a * E_a[i];
@@ -182,7 +182,7 @@ namespace Signoton::Rheology
                     Vector3       &x,
                     Matrix3       &J_E) const
     {
-      const Vector3 r = {{-m, compression ? -m : -1., -1.}};
+      const Vector3 r  = {{-m, compression ? -m : -1., -1.}};
       const Vector3 x0 = {{bound, compression ? bound : 0., 0.}};
       // Spherical and deviatoric parts apart: summed up, they would cancel for
       // a ray close to the hydrostatic axis and k >> mu.
@@ -190,8 +190,8 @@ namespace Signoton::Rheology
       double       w_r = 0., w_y = 0.;
       for (unsigned int i = 0; i < 3; ++i)
         {
-          const double w = mean_r / (3. * moduli.bulk) +
-                           (r[i] - mean_r) / (2. * moduli.shear);
+          const double w =
+            mean_r / (3. * moduli.bulk) + (r[i] - mean_r) / (2. * moduli.shear);
           w_r += w * r[i];
           w_y += w * (y[i] - x0[i]);
         }

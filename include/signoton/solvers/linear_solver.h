@@ -20,7 +20,7 @@ namespace Signoton
   struct LinearResult
   {
     bool         converged  = false;
-    unsigned int iterations = 0; ///< 1 for a direct solve
+    unsigned int iterations = 0;  ///< 1 for a direct solve
     double       residual   = 0.; ///< relative to the right hand side
     std::string  reason;          ///< in words, if it did not converge
   };
@@ -73,9 +73,9 @@ namespace Signoton
     }
 
   private:
-    const Parameters                     &parameters;
-    Ledger                               &ledger;
-    const TrilinosWrappers::SparseMatrix *matrix = nullptr;
+    const Parameters                                  &parameters;
+    Ledger                                            &ledger;
+    const TrilinosWrappers::SparseMatrix              *matrix = nullptr;
     std::unique_ptr<TrilinosWrappers::PreconditionAMG> amg;
     std::unique_ptr<SolverControl>                     direct_control;
     std::unique_ptr<TrilinosWrappers::SolverDirect>    direct;

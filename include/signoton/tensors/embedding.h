@@ -88,9 +88,9 @@ namespace Signoton
   /** Entries a tangent of an embedding keeps: the upper triangle of the
    *  condensed, symmetric matrix. */
   template <typename Embedding>
-  constexpr unsigned int n_tangent_entries =
-    Embedding::strain_entries.size() *
-    (Embedding::strain_entries.size() + 1) / 2;
+  constexpr unsigned int
+    n_tangent_entries = Embedding::strain_entries.size() *
+                        (Embedding::strain_entries.size() + 1) / 2;
 
   /** Write the condensed tangent to @p packed, row by row. */
   template <typename Embedding, typename Number>

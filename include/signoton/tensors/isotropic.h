@@ -68,7 +68,7 @@ namespace Signoton
   Tensor4<Number>
   isotropic_tensor(const Number &volumetric, const Number &deviatoric)
   {
-    constexpr unsigned int n = Tensor2<Number>::n_independent_components;
+    constexpr unsigned int n      = Tensor2<Number>::n_independent_components;
     Tensor4<Number>        result = deviatoric * deviator_tensor<3, Number>();
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
@@ -147,8 +147,8 @@ namespace Signoton
     Tensor4<Number>
     both_sides(const Tensor4<Number> &tangent) const
     {
-      const auto   I      = unit_symmetric_tensor<3, Number>();
-      const double offset = (spherical - deviatoric) / 3.;
+      const auto      I      = unit_symmetric_tensor<3, Number>();
+      const double    offset = (spherical - deviatoric) / 3.;
       Tensor4<Number> scaled = (deviatoric * deviatoric) * tangent;
       if (offset != 0.)
         {
