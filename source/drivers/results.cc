@@ -458,7 +458,7 @@ namespace Signoton
 
   template <int dim>
   void
-  Results<dim>::finish(const VectorType &, const double)
+  Results<dim>::finish()
   {
     const auto memory = model.mechanics->memory();
     model.ledger.bytes("history", memory.history);

@@ -283,7 +283,7 @@ namespace Signoton
       {
         if (!advance())
           {
-            results.finish(displacement, time);
+            results.finish();
             results.no_equilibrium(time, step_size, last_result);
             return ExitStatus::no_equilibrium;
           }
@@ -300,7 +300,7 @@ namespace Signoton
             checkpoint.write(history_space.get(), displacement);
           }
       }
-    results.finish(displacement, time);
+    results.finish();
     return ExitStatus::completed;
   }
 

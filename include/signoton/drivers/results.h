@@ -61,7 +61,7 @@ namespace Signoton
 
     /** Write the ledger and the summary. */
     void
-    finish(const VectorType &displacement, const double time);
+    finish();
 
     /** Put what must survive a restart into a checkpoint, and back. */
     void
