@@ -22,17 +22,21 @@ namespace Signoton
     model.mechanics->initialize_vector(load);
     model.mechanics->initialize_vector(load_of_mesh);
 
+    // The pattern has the rows and columns of boundary conditions, too: they
+    // may eliminate one unknown of a node only, and multigrid aggregates whole
+    // nodes.
     TrilinosWrappers::SparsityPattern sparsity(owned,
                                                owned,
                                                space.relevant_dofs,
                                                space.communicator);
     DoFTools::make_sparsity_pattern(space.dof_handler,
                                     sparsity,
-                                    space.constraints,
+                                    space.mesh_constraints,
                                     false,
                                     Utilities::MPI::this_mpi_process(
                                       space.communicator));
     sparsity.compress();
+    linear_solver.clear(); // it refers to the old matrix until its end
     matrix.clear();
     matrix.reinit(sparsity);
     assembled.reset();
@@ -127,7 +131,7 @@ namespace Signoton
       const auto timer = model.ledger.time("assembly");
       model.mechanics->assemble(matrix, regularization);
     }
-    linear_solver.initialize(matrix, near_null_space, model.space->degree);
+    linear_solver.initialize(matrix, near_null_space, dim, model.space->degree);
     assembled = regularization;
   }
 

@@ -3,6 +3,7 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 
+#include <Amesos.h>
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
@@ -17,12 +18,16 @@ namespace Signoton
       method,
       "auto: direct for small systems, else cg. cg: conjugate gradients with "
       "algebraic multigrid. gmres: the same for non-symmetric tangents. "
-      "direct: sparse factorization on one rank.",
+      "direct: sparse factorization.",
       Patterns::Selection("auto|cg|gmres|direct"));
-    handler.add_parameter("Direct below",
-                          direct_limit,
-                          "Number of unknowns up to which auto chooses "
-                          "direct.");
+    handler.add_parameter("Direct below in 2D",
+                          direct_limit_2d,
+                          "Number of unknowns up to which auto chooses direct "
+                          "in two dimensions.");
+    handler.add_parameter("Direct below in 3D",
+                          direct_limit_3d,
+                          "The same in three dimensions, where factors fill "
+                          "up.");
     handler.add_parameter("Maximum iterations",
                           maximum_iterations,
                           "Iterations of cg or gmres after which a solve has "
@@ -44,18 +49,25 @@ namespace Signoton
   LinearSolver::initialize(
     const TrilinosWrappers::SparseMatrix   &new_matrix,
     const std::vector<std::vector<double>> &near_null_space,
+    const unsigned int                      dim,
     const unsigned int                      degree)
   {
     const auto timer = ledger.time("preconditioner");
-    matrix           = &new_matrix;
-    amg.reset();
-    direct.reset();
+    clear();
+    matrix = &new_matrix;
     if (parameters.method == "direct" ||
-        (parameters.method == "auto" && matrix->m() <= parameters.direct_limit))
+        (parameters.method == "auto" &&
+         matrix->m() <= (dim == 2 ? parameters.direct_limit_2d :
+                                    parameters.direct_limit_3d)))
       {
+        // MUMPS factorizes in parallel and with less fill-in; a Trilinos without
+        // it still has KLU
+        const std::string package =
+          Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
         direct_control = std::make_unique<SolverControl>(1, 0.);
-        direct =
-          std::make_unique<TrilinosWrappers::SolverDirect>(*direct_control);
+        direct         = std::make_unique<TrilinosWrappers::SolverDirect>(
+          *direct_control,
+          TrilinosWrappers::SolverDirect::AdditionalData(false, package));
         direct->initialize(*matrix);
         return;
       }
@@ -78,14 +90,20 @@ namespace Signoton
     // The coarsest matrices are nearly dense: factoring one of deal.II's default
     // size of 2000 costs more than all the rest of the setup.
     list.set("coarse: max size", 200);
-    // Aggregates are built from single unknowns ("PDE equations" stays 1): at
-    // hanging nodes and symmetry planes some unknowns of a node are
-    // eliminated, and ML refuses incomplete blocks between ranks.
+    list.set("PDE equations", static_cast<int>(dim));
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", static_cast<int>(modes.NumVectors()));
     list.set("null space: vectors", modes.Values());
     amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
     amg->initialize(*matrix, list);
+  }
+
+  void
+  LinearSolver::clear()
+  {
+    amg.reset();
+    direct.reset();
+    matrix = nullptr;
   }
 
   LinearResult

@@ -151,7 +151,7 @@ namespace Signoton
                 if (step > 0.)
                   break;
                 linear.reason = "the line search found no decrease";
-                rho           = std::max(1e-3, 10. * rho);
+                rho           = std::max(1e-3, 4. * rho);
               }
             else
               {
@@ -168,8 +168,7 @@ namespace Signoton
         if (step > 0.9)
           result.regularization =
             result.regularization > std::max(1e-5, parameters.regularization) ?
-              std::max(parameters.regularization,
-                       0.03 * result.regularization) :
+              std::max(parameters.regularization, 0.1 * result.regularization) :
               parameters.regularization;
         previous_norm = norm;
         norm          = gradient.l2_norm();

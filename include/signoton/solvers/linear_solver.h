@@ -3,7 +3,6 @@
 
 #include <signoton/base/ledger.h>
 
-
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/la_parallel_vector.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -28,7 +27,9 @@ namespace Signoton
   /**
    * Trilinos' solvers for an assembled matrix: conjugate gradients or GMRES
    * with smoothed aggregation (ML), which is given the rigid body motions as
-   * near-null space, or a direct factorization for small systems.
+   * near-null space, or a direct factorization (MUMPS, else KLU) for small systems, and for plane
+   * ones of middling size: it does not mind the nearly singular tangents of
+   * loosened and flowing zones.
    */
   class LinearSolver
   {
@@ -41,7 +42,8 @@ namespace Signoton
       add_parameters(ParameterHandler &handler);
 
       std::string  method                = "auto";
-      unsigned int direct_limit          = 5000;
+      unsigned int direct_limit_2d       = 100000;
+      unsigned int direct_limit_3d       = 5000;
       unsigned int maximum_iterations    = 400;
       double       aggregation_threshold = 0.02;
       unsigned int smoother_sweeps       = 2;
@@ -55,12 +57,18 @@ namespace Signoton
     /**
      * Prepare for a matrix, which must live as long as solves go on.
      * @param near_null_space vectors of locally owned entries
+     * @param dim unknowns at a node, which are numbered one after the other
      * @param degree polynomial degree of the elements
      */
     void
     initialize(const TrilinosWrappers::SparseMatrix   &matrix,
                const std::vector<std::vector<double>> &near_null_space,
+               const unsigned int                      dim,
                const unsigned int                      degree);
+
+    /** Forget the matrix: to be called before it changes its size. */
+    void
+    clear();
 
     /** Solve to a residual below @p tolerance times that of zero. */
     LinearResult
