@@ -1,5 +1,6 @@
 #include <signoton/base/exceptions.h>
 #include <signoton/base/ledger.h>
+#include <signoton/base/output_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -8,7 +9,6 @@
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
 
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 
@@ -126,19 +126,8 @@ namespace Signoton
       put("counts", what, amount);
     for (const auto &[what, amount] : sizes)
       put("bytes", what, amount);
-    unsigned int problem = 0;
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      {
-        std::ofstream file(file_name);
-        boost::property_tree::write_json(file, tree);
-        file.flush();
-        problem = file ? 0 : 1;
-      }
-    if (Utilities::MPI::max(problem, communicator) > 0)
-      throw UserError("file '" + file_name + "'",
-                      "it cannot be written",
-                      "space and permission to write",
-                      "free space or choose another output directory",
-                      ExitStatus::output_failed);
+    std::ostringstream text;
+    boost::property_tree::write_json(text, tree);
+    write_file(communicator, file_name, text.str());
   }
 } // namespace Signoton

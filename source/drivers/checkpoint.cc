@@ -1,3 +1,4 @@
+#include <signoton/base/output_file.h>
 #include <signoton/drivers/checkpoint.h>
 
 #include <deal.II/distributed/solution_transfer.h>
@@ -5,9 +6,13 @@
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
 
+#include <fcntl.h>
+
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace Signoton
 {
@@ -31,6 +36,22 @@ namespace Signoton
               {"degree", model.space->degree},
               {"coarse cells", model.space->mesh.n_cells(0)},
               {"numbers of history a point", model.mechanics->history_width()}};
+    }
+
+    /** Whether a file of so many bytes can be made, which no free space of the
+     *  disk tells: there are quotas and limits of a process. */
+    bool
+    has_room(const std::string &directory, const double bytes)
+    {
+      const std::string trial = directory + "/room";
+      std::FILE        *file  = std::fopen(trial.c_str(), "wb");
+      const bool        ok =
+        file != nullptr && posix_fallocate(fileno(file), 0, bytes) == 0;
+      if (file != nullptr)
+        std::fclose(file);
+      std::error_code error;
+      std::filesystem::remove(trial, error);
+      return ok;
     }
 
     void
@@ -95,29 +116,6 @@ namespace Signoton
 
   template <int dim>
   void
-  Checkpoint<dim>::write_numbers(const std::string &file_name) const
-  {
-    unsigned int problem = 0;
-    if (is_root(model.communicator))
-      {
-        std::ofstream file(file_name);
-        file.precision(std::numeric_limits<double>::max_digits10);
-        for (const auto &[name, value] : numbers)
-          file << value << ' ' << name << '\n';
-        file.flush();
-        problem = file ? 0 : 1;
-      }
-    if (Utilities::MPI::max(problem, model.communicator) > 0)
-      throw UserError("checkpoint '" + directory + "'",
-                      "it cannot be written",
-                      "space and permission to write",
-                      "free space or choose another output directory; the "
-                      "last complete checkpoint is untouched",
-                      ExitStatus::output_failed);
-  }
-
-  template <int dim>
-  void
   Checkpoint<dim>::read_numbers()
   {
     if (is_root(model.communicator))
@@ -144,19 +142,19 @@ namespace Signoton
   {
     namespace fs                 = std::filesystem;
     const std::string unfinished = directory + ".unfinished";
-    const double      estimate =
-      16. * (model.space->dof_handler.n_dofs() +
-             (history_space ? history_space->dof_handler.n_dofs() : 0)) +
-      1e5;
+    // p4est ends the whole program if it cannot write: make sure of the space
+    const double per_cell =
+      64. + 8. * (model.space->fe.n_dofs_per_cell() +
+                  (history_space ? history_space->fe.n_dofs_per_cell() : 0));
+    const double estimate =
+      1e5 + per_cell * model.space->mesh.n_global_active_cells();
     unsigned int problem = 0;
     if (is_root(model.communicator))
       {
         std::error_code error;
         fs::remove_all(unfinished, error);
         fs::create_directories(unfinished, error);
-        problem = error ? 1 : 0;
-        if (fs::space(unfinished, error).available < estimate)
-          problem = 1;
+        problem = error || !has_room(unfinished, estimate) ? 1 : 0;
       }
     if (Utilities::MPI::max(problem, model.communicator) > 0)
       throw UserError("checkpoint '" + directory + "'",
@@ -189,7 +187,11 @@ namespace Signoton
     for (const auto &[name, value] : identity(model))
       set(name, value);
     set("active cells", model.space->mesh.n_global_active_cells());
-    write_numbers(unfinished + "/numbers");
+    std::ostringstream text;
+    text.precision(std::numeric_limits<double>::max_digits10);
+    for (const auto &[name, value] : numbers)
+      text << value << ' ' << name << '\n';
+    write_file(model.communicator, unfinished + "/numbers", text.str());
     if (is_root(model.communicator))
       {
         const std::string old = directory + ".old";

@@ -1,6 +1,6 @@
+#include <signoton/base/output_file.h>
 #include <signoton/drivers/results.h>
 
-#include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/vector_tools_evaluate.h>
 #include <deal.II/numerics/vector_tools_integrate_difference.h>
 
@@ -33,40 +33,6 @@ namespace Signoton
         text << std::fixed << std::setprecision(1) << seconds / 3600. << " h";
       return text.str();
     }
-
-    void
-    check_written(std::ostream      &stream,
-                  const std::string &file_name,
-                  const MPI_Comm    &communicator)
-    {
-      stream.flush();
-      if (Utilities::MPI::max(stream ? 0U : 1U, communicator) > 0)
-        throw UserError("file '" + file_name + "'",
-                        "it cannot be written, the disk is full or protected",
-                        "space and permission to write",
-                        "free space or choose another 'Output / Directory'; "
-                        "what was written before is complete",
-                        ExitStatus::output_failed);
-    }
-
-    /** Write a file on the ranks that want to; fail on all or none. */
-    void
-    write_file(const std::string &file_name,
-               const std::string &text,
-               const bool         i_write,
-               const MPI_Comm    &communicator)
-    {
-      std::ofstream file;
-      if (i_write)
-        {
-          file.open(file_name);
-          file << text;
-        }
-      check_written(file, file_name, communicator);
-    }
-
-    const std::array<const char *, 6> tensor_names = {
-      {"xx", "yy", "zz", "xy", "xz", "yz"}};
   } // namespace
 
   template <int dim>
@@ -74,6 +40,7 @@ namespace Signoton
     : model(model)
     , screen(std::cout,
              Utilities::MPI::this_mpi_process(model.communicator) == 0)
+    , fields(model)
   {}
 
   template <int dim>
@@ -125,19 +92,22 @@ namespace Signoton
     if (!model.output.newton_history)
       return;
     for (unsigned int i = 0; i < newton.history.size(); ++i)
-      screen << "           " << std::setw(3) << i << "  residual "
-             << std::scientific << std::setprecision(2)
-             << newton.history[i].residual << std::defaultfloat << "  linear "
-             << std::setw(3) << newton.history[i].linear_iterations
-             << "  step length " << newton.history[i].step_length << "\n";
+      {
+        const auto &entry = newton.history[i];
+        screen << "           " << std::setw(3) << i << "  residual "
+               << std::scientific << std::setprecision(2) << entry.residual
+               << std::defaultfloat << "  linear " << std::setw(3)
+               << entry.linear_iterations << " in " << entry.linear_solves
+               << "  step length " << number(entry.step_length)
+               << "  regularization " << number(entry.regularization) << "\n";
+      }
   }
 
   template <int dim>
   void
-  Results<dim>::cycle_line(const unsigned int  cycle,
-                           const NewtonResult &newton,
-                           const StepRecord   &record)
+  Results<dim>::cycle_line(const unsigned int cycle, const StepRecord &record)
   {
+    const NewtonResult &newton = record.solves.back();
     screen << "         refined, cycle " << cycle << ": " << std::setw(8)
            << model.space->dof_handler.n_dofs() << " unknowns; before, Newton "
            << newton.iterations() << ", linear "
@@ -233,10 +203,19 @@ namespace Signoton
 
   template <int dim>
   std::vector<std::pair<std::string, double>>
-  Results<dim>::statistics_line(const VectorType   &displacement,
-                                const StepRecord   &record,
-                                const NewtonResult &newton)
+  Results<dim>::statistics_line(const VectorType &displacement,
+                                const StepRecord &record)
   {
+    const NewtonResult &newton            = record.solves.back();
+    unsigned int        newton_iterations = 0, most_newton = 0;
+    unsigned int        linear_iterations = 0, most_linear = 0;
+    for (const auto &solve : record.solves)
+      {
+        newton_iterations += solve.iterations();
+        most_newton = std::max(most_newton, solve.iterations());
+        linear_iterations += solve.linear_iterations();
+        most_linear = std::max(most_linear, solve.most_linear_iterations());
+      }
     const std::array<std::string, 3>            axes = {{"x", "y", "z"}};
     std::vector<std::pair<std::string, double>> line = {
       {"step", accepted_steps},
@@ -245,9 +224,10 @@ namespace Signoton
       {"cells", model.space->mesh.n_global_active_cells()},
       {"unknowns", model.space->dof_handler.n_dofs()},
       {"newton iterations", newton.iterations()},
-      {"newton iterations of all tries", record.newton_iterations},
-      {"linear iterations", newton.linear_iterations()},
-      {"most linear iterations", newton.most_linear_iterations()},
+      {"newton iterations of all solves", newton_iterations},
+      {"most newton iterations of a solve", most_newton},
+      {"linear iterations of all solves", linear_iterations},
+      {"most linear iterations", most_linear},
       {"residual", newton.history.back().residual},
       {"tangent regularization", newton.regularization},
       {"stored energy", record.balance.stored},
@@ -294,42 +274,35 @@ namespace Signoton
   Results<dim>::append_statistics(
     const std::vector<std::pair<std::string, double>> &line)
   {
-    const std::string file_name = model.output.directory + "/statistics.csv";
-    std::ofstream     file;
-    if (Utilities::MPI::this_mpi_process(model.communicator) == 0)
-      {
-        const bool is_new = !std::filesystem::exists(file_name);
-        file.open(file_name, std::ios::app);
-        file.precision(12);
-        if (is_new)
-          {
-            for (std::size_t i = 0; i < line.size(); ++i)
-              file << (i > 0 ? "," : "") << '"' << line[i].first << '"';
-            file << '\n';
-          }
-        for (std::size_t i = 0; i < line.size(); ++i)
-          file << (i > 0 ? "," : "") << line[i].second;
-        file << '\n';
-      }
-    check_written(file, file_name, model.communicator);
+    const std::string  file_name = model.output.directory + "/statistics.csv";
+    std::ostringstream text;
+    text.precision(12);
+    const bool is_new = !std::filesystem::exists(file_name);
+    for (std::size_t i = 0; is_new && i < line.size(); ++i)
+      text << (i > 0 ? "," : "") << '"' << line[i].first << '"';
+    text << (is_new ? "\n" : "");
+    for (std::size_t i = 0; i < line.size(); ++i)
+      text << (i > 0 ? "," : "") << line[i].second;
+    text << '\n';
+    write_file(model.communicator, file_name, text.str(), WriteMode::append);
   }
 
   template <int dim>
   void
-  Results<dim>::step(const VectorType   &displacement,
-                     const StepRecord   &record,
-                     const NewtonResult &newton,
-                     const bool          is_last)
+  Results<dim>::step(const VectorType &displacement,
+                     const StepRecord &record,
+                     const bool        is_last)
   {
+    const NewtonResult &newton = record.solves.back();
     ++accepted_steps;
     external_work += record.external_work;
     dissipation += record.balance.dissipation;
     {
       const auto timer = model.ledger.time("output");
-      append_statistics(statistics_line(displacement, record, newton));
+      append_statistics(statistics_line(displacement, record));
       const unsigned int every = model.output.fields_every;
       if (every > 0 && (is_last || accepted_steps % every == 0))
-        write_fields(displacement, record.time);
+        fields.write(displacement, record.time, accepted_steps);
     }
     const double elapsed = model.ledger.total_seconds();
     const double done =
@@ -350,114 +323,6 @@ namespace Signoton
 
   template <int dim>
   void
-  Results<dim>::write_fields(const VectorType &displacement, const double time)
-  {
-    VectorType u = model.space->make_relevant_vector();
-    u.copy_locally_owned_data_from(displacement);
-    u.update_ghost_values();
-    DataOut<dim> output;
-    output.attach_dof_handler(model.space->dof_handler);
-    output.add_data_vector(
-      u,
-      std::vector<std::string>(dim, "displacement"),
-      DataOut<dim>::type_dof_data,
-      std::vector<DataComponentInterpretation::DataComponentInterpretation>(
-        dim, DataComponentInterpretation::component_is_part_of_vector));
-
-    const auto averages = model.mechanics->cell_averages(displacement);
-    std::vector<std::pair<std::string, Vector<float>>> cell_data;
-    const auto add = [&](const std::string &name, const auto &value) {
-      cell_data.emplace_back(name, Vector<float>(averages.size()));
-      for (std::size_t i = 0; i < averages.size(); ++i)
-        cell_data.back().second[i] = value(averages[i]);
-    };
-    const auto tensor = [](const std::array<double, 6> &entries) {
-      Tensor2<> result;
-      for (unsigned int c = 0; c < 6; ++c)
-        result.access_raw_entry(c) = entries[c];
-      return result;
-    };
-    const bool any_inelastic =
-      std::any_of(model.materials.begin(),
-                  model.materials.end(),
-                  [](const auto &material) { return !material.is_elastic(); });
-    const bool any_history = model.mechanics->history_width() > 0;
-    for (unsigned int c = 0; c < (dim == 2 ? 4 : 6); ++c)
-      {
-        const std::string entry = tensor_names[c];
-        add("stress_" + entry, [c](const auto &a) { return a.stress[c]; });
-        if (any_inelastic)
-          add("contact_strain_" + entry,
-              [c](const auto &a) { return a.contact_strain[c]; });
-        if (any_history)
-          add("plastic_strain_" + entry,
-              [c](const auto &a) { return a.plastic_strain[c]; });
-      }
-    add("pressure", [&](const auto &a) { return pressure(tensor(a.stress)); });
-    add("shear_intensity", [&](const auto &a) {
-      return shear_intensity(dealii::deviator(tensor(a.stress)));
-    });
-    add("energy_density", [](const auto &a) { return a.energy_density; });
-    add("region", [](const auto &a) { return a.region; });
-    if (any_inelastic)
-      {
-        add("contact_dilatation",
-            [&](const auto &a) { return trace(tensor(a.contact_strain)); });
-        add("contact_shear", [&](const auto &a) {
-          return 2. *
-                 shear_intensity(dealii::deviator(tensor(a.contact_strain)));
-        });
-      }
-    if (any_history)
-      add("plastic_shear", [&](const auto &a) {
-        return 2. * shear_intensity(dealii::deviator(tensor(a.plastic_strain)));
-      });
-    for (const auto &[name, values] : cell_data)
-      output.add_data_vector(values, name, DataOut<dim>::type_cell_data);
-    output.build_patches(model.space->mapping,
-                         model.space->degree,
-                         DataOut<dim>::curved_boundary);
-
-    const std::string base =
-      "fields-" + Utilities::int_to_string(accepted_steps, 4);
-    const unsigned int rank =
-      Utilities::MPI::this_mpi_process(model.communicator);
-    const unsigned int n_ranks =
-      Utilities::MPI::n_mpi_processes(model.communicator);
-    const auto piece = [&](const unsigned int r) {
-      return n_ranks == 1 ?
-               base + ".vtu" :
-               base + "." + Utilities::int_to_string(r, 4) + ".vtu";
-    };
-    const std::string     directory = model.output.directory + "/";
-    DataOutBase::VtkFlags flags;
-    flags.time  = time;
-    flags.cycle = accepted_steps;
-    output.set_flags(flags);
-    // Through memory: deal.II's writers answer a full disk with an exception on
-    // the rank that meets it, while the others would wait.
-    std::ostringstream text, record, collection;
-    output.write_vtu(text);
-    write_file(directory + piece(rank), text.str(), true, model.communicator);
-
-    snapshots.emplace_back(time, n_ranks == 1 ? piece(0) : base + ".pvtu");
-    std::vector<std::string> pieces;
-    for (unsigned int r = 0; r < n_ranks; ++r)
-      pieces.push_back(piece(r));
-    output.write_pvtu_record(record, pieces);
-    write_file(directory + base + ".pvtu",
-               record.str(),
-               rank == 0 && n_ranks > 1,
-               model.communicator);
-    DataOutBase::write_pvd_record(collection, snapshots);
-    write_file(directory + "fields.pvd",
-               collection.str(),
-               rank == 0,
-               model.communicator);
-  }
-
-  template <int dim>
-  void
   Results<dim>::finish()
   {
     const auto memory = model.mechanics->memory();
@@ -468,7 +333,7 @@ namespace Signoton
     model.ledger.write(model.output.directory + "/ledger.json");
     const std::string summary = model.ledger.summary();
     screen << "\nWhere the time went:\n" << summary;
-    if (!snapshots.empty())
+    if (!fields.snapshots().empty())
       screen << "Fields for ParaView: " << model.output.directory
              << "/fields.pvd\n";
     screen << "Statistics by step:  " << model.output.directory
@@ -482,7 +347,7 @@ namespace Signoton
     checkpoint.set("accepted steps", accepted_steps);
     checkpoint.set("external work", external_work);
     checkpoint.set("dissipated energy", dissipation);
-    for (const auto &[time, file] : snapshots)
+    for (const auto &[time, file] : fields.snapshots())
       checkpoint.set("snapshot " + file, time);
   }
 
@@ -490,14 +355,16 @@ namespace Signoton
   void
   Results<dim>::resume(const Checkpoint<dim> &checkpoint)
   {
-    resumed                  = true;
-    accepted_steps           = checkpoint.number("accepted steps");
-    external_work            = checkpoint.number("external work");
-    dissipation              = checkpoint.number("dissipated energy");
-    const std::string prefix = "snapshot ";
+    resumed        = true;
+    accepted_steps = checkpoint.number("accepted steps");
+    external_work  = checkpoint.number("external work");
+    dissipation    = checkpoint.number("dissipated energy");
+    const std::string               prefix = "snapshot ";
+    typename FieldOutput<dim>::List snapshots;
     for (const auto &name : checkpoint.names(prefix))
       snapshots.emplace_back(checkpoint.number(name),
                              name.substr(prefix.size()));
+    fields.resume(snapshots);
 
     // drop lines of steps that are taken again
     const std::string file_name = model.output.directory + "/statistics.csv";

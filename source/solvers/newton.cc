@@ -95,15 +95,18 @@ namespace Signoton
   }
 
   NewtonResult
-  Newton::solve(ConvexProblem &problem, VectorType &x) const
+  Newton::solve(ConvexProblem &problem,
+                VectorType    &x,
+                const double   initial_regularization) const
   {
     NewtonResult result;
-    result.regularization = parameters.regularization;
+    result.regularization =
+      std::max(parameters.regularization, initial_regularization);
     VectorType gradient(x), rhs(x), dx(x);
     double     energy = problem.evaluate(x, gradient, true);
     double     scale  = problem.force_scale(x);
     double     norm = gradient.l2_norm(), previous_norm = norm;
-    result.history.push_back({scale > 0. ? norm / scale : 0., 0, 0.});
+    result.history.push_back({scale > 0. ? norm / scale : 0.});
     for (unsigned int iteration = 0;; ++iteration)
       {
         if (!std::isfinite(norm))
@@ -131,14 +134,15 @@ namespace Signoton
           std::min(1e-3, 0.1 * parameters.tolerance * scale / norm));
         rhs = gradient;
         rhs *= -1.;
-        LinearResult linear;
-        double       step              = 0.;
-        unsigned int linear_iterations = 0;
+        NewtonIteration next;
+        LinearResult    linear;
         while (true)
           {
             dx     = 0.;
             linear = problem.solve(rhs, dx, forcing, result.regularization);
-            linear_iterations += linear.iterations;
+            ++next.linear_solves;
+            next.linear_iterations += linear.iterations;
+            next.regularization = result.regularization;
             // Short steps say that the tangent is trusted too far: many points
             // are about to switch their branch, or the body is near its limit
             // load. A part of the elastic tangent shortens the increment where
@@ -147,8 +151,9 @@ namespace Signoton
             if (linear.converged && gradient * dx < 0.)
               {
                 const double shortest = rho < 0.1 ? 0.2 : 0.;
-                step = search(problem, dx, x, gradient, energy, shortest);
-                if (step > 0.)
+                next.step_length =
+                  search(problem, dx, x, gradient, energy, shortest);
+                if (next.step_length > 0.)
                   break;
                 linear.reason = "the line search found no decrease";
                 rho           = std::max(1e-3, 4. * rho);
@@ -165,7 +170,7 @@ namespace Signoton
                 return result;
               }
           }
-        if (step > 0.9)
+        if (next.step_length > 0.9)
           result.regularization =
             result.regularization > std::max(1e-5, parameters.regularization) ?
               std::max(parameters.regularization, 0.1 * result.regularization) :
@@ -173,7 +178,8 @@ namespace Signoton
         previous_norm = norm;
         norm          = gradient.l2_norm();
         scale         = std::max(scale, problem.force_scale(x));
-        result.history.push_back({norm / scale, linear_iterations, step});
+        next.residual = norm / scale;
+        result.history.push_back(next);
       }
   }
 } // namespace Signoton

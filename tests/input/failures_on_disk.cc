@@ -5,6 +5,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -31,6 +34,16 @@ namespace
                << "\n";
       }
   }
+
+  void
+  count_lines(const std::string &file_name)
+  {
+    std::ifstream statistics(file_name);
+    unsigned int  n_lines = 0;
+    for (std::string line; std::getline(statistics, line);)
+      ++n_lines;
+    output << "lines of statistics that stay: " << n_lines << "\n";
+  }
 } // namespace
 
 int
@@ -38,7 +51,7 @@ main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   output.open("output");
-  for (const char *old : {"results", "good", "file"})
+  for (const char *old : {"results", "good", "no_room", "file"})
     fs::remove_all(old);
 
   Options options;
@@ -56,16 +69,27 @@ main(int argc, char **argv)
   options.output_directory = "results";
   options.overrides.emplace_back("Output/Fields every=1");
   run("the disk is full when fields are written", options);
-  std::ifstream statistics("results/statistics.csv");
-  unsigned int  n_lines = 0;
-  for (std::string line; std::getline(statistics, line);)
-    ++n_lines;
-  output << "lines of statistics that stay: " << n_lines << "\n";
+  count_lines("results/statistics.csv");
 
   options.output_directory = "good";
   options.overrides = {"Load steps/End time=0.5", "Output/Checkpoint every=1"};
   run("a run with a checkpoint", options);
 
+  // no file may become larger than it takes for all but the checkpoint
+  rlimit unlimited;
+  getrlimit(RLIMIT_FSIZE, &unlimited);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limited{100000, unlimited.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &limited);
+  options.overrides        = {"Load steps/Step size=0.5",
+                              "Output/Checkpoint every=2",
+                              "Output/Fields every=0"};
+  options.output_directory = "no_room";
+  run("the disk is full when a checkpoint is written", options);
+  setrlimit(RLIMIT_FSIZE, &unlimited);
+  count_lines("no_room/statistics.csv");
+
+  options.output_directory = "good";
   options.scene_file       = "good/resolved.prm";
   options.resume_directory = "good/checkpoint";
   options.overrides        = {"Discretization/Degree=2"};

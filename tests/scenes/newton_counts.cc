@@ -40,7 +40,7 @@ namespace
           const auto value = [&](const std::string &name) {
             return PhysicalNumbers::value(line, name);
           };
-          const double newton = value("newton iterations of all tries"),
+          const double newton = value("newton iterations of all solves"),
                        cg     = value("most linear iterations");
           table.add_value("unknowns", value("unknowns"));
           table.add_value("lambda", lambda);

@@ -46,9 +46,6 @@ namespace Signoton
     mesh_file(const std::string &in_directory) const;
 
     void
-    write_numbers(const std::string &file_name) const;
-
-    void
     read_numbers();
 
     Model<dim>                   &model;

@@ -2,7 +2,8 @@
 #define signoton_drivers_results_h
 
 #include <signoton/drivers/checkpoint.h>
-#include <signoton/drivers/model.h>
+#include <signoton/drivers/field_output.h>
+#include <signoton/solvers/newton.h>
 
 #include <deal.II/base/conditional_ostream.h>
 
@@ -11,20 +12,22 @@ namespace Signoton
   /** What is known of an accepted step. */
   struct StepRecord
   {
-    double              time              = 0.;
-    double              step_size         = 0.;
-    unsigned int        newton_iterations = 0; ///< of all tries and cycles
+    double              time      = 0.;
+    double              step_size = 0.;
     EnergyBalance       balance;
     double              external_work   = 0.; ///< of the step, in J
     double              transfer_drift  = 0.; ///< of stored energy, in J
     double              estimated_error = 0.; ///< 0 without refinement
     std::vector<double> reactions; ///< dim entries for each condition
+    /** One for each mesh and each binder of a continuation; the last one led
+     *  to the accepted state. */
+    std::vector<NewtonResult> solves;
   };
 
   /**
    * The results of a run: the log on the screen, `statistics.csv` with a line
-   * a step, `fields.pvd` with the fields for ParaView, `ledger.json`, and
-   * `resolved.prm` which runs again to the same answer.
+   * a step, the fields, `ledger.json`, and `resolved.prm` which runs again to
+   * the same answer.
    */
   template <int dim>
   class Results
@@ -38,16 +41,13 @@ namespace Signoton
 
     /** Record an accepted step. */
     void
-    step(const VectorType   &displacement,
-         const StepRecord   &record,
-         const NewtonResult &newton,
-         const bool          is_last);
+    step(const VectorType &displacement,
+         const StepRecord &record,
+         const bool        is_last);
 
     /** One line for a solve that is repeated on a finer mesh. */
     void
-    cycle_line(const unsigned int  cycle,
-               const NewtonResult &newton,
-               const StepRecord   &record);
+    cycle_line(const unsigned int cycle, const StepRecord &record);
 
     /** One line for a step that is cut. */
     void
@@ -83,9 +83,6 @@ namespace Signoton
     open_directory();
 
     void
-    write_fields(const VectorType &displacement, const double time);
-
-    void
     print_newton_history(const NewtonResult &newton);
 
     /** Errors against the reference: L2 norm, absolute and relative. */
@@ -97,9 +94,7 @@ namespace Signoton
 
     /** Names and values of a line of the statistics. */
     std::vector<std::pair<std::string, double>>
-    statistics_line(const VectorType   &displacement,
-                    const StepRecord   &record,
-                    const NewtonResult &newton);
+    statistics_line(const VectorType &displacement, const StepRecord &record);
 
     void
     append_statistics(const std::vector<std::pair<std::string, double>> &line);
@@ -110,7 +105,7 @@ namespace Signoton
     double             external_work = 0., dissipation = 0.;
     double             start_time = 0.;
     bool               resumed    = false;
-    std::vector<std::pair<double, std::string>> snapshots;
+    FieldOutput<dim>   fields;
   };
 } // namespace Signoton
 

@@ -42,9 +42,11 @@ namespace Signoton
   /** One line of the history of a Newton solve. */
   struct NewtonIteration
   {
-    double       residual;          ///< relative to the force scale
-    unsigned int linear_iterations; ///< to get here from the previous iterate
-    double       step_length;       ///< of the line search
+    double       residual          = 0.; ///< relative to the force scale
+    unsigned int linear_solves     = 0;  ///< from the previous iterate to here
+    unsigned int linear_iterations = 0;  ///< of these solves together
+    double       regularization    = 0.; ///< of the tangent that led here
+    double       step_length       = 0.; ///< of the line search
   };
 
   /** How a Newton solve went. */
@@ -101,9 +103,13 @@ namespace Signoton
 
     /** Minimize from @p x, which fulfills all constraints, as do all iterates
      *  since increments fulfill the homogeneous ones. On failure @p x is the
-     *  best iterate. */
+     *  best iterate.
+     *  @param initial_regularization of the first iteration, from where it
+     *    shrinks: worth it where the first step is known to be short */
     NewtonResult
-    solve(ConvexProblem &problem, VectorType &x) const;
+    solve(ConvexProblem &problem,
+          VectorType    &x,
+          const double   initial_regularization = 0.) const;
 
   private:
     /** Line search from x along dx; returns the step length, 0 if none at

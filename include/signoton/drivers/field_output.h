@@ -1,0 +1,48 @@
+#ifndef signoton_drivers_field_output_h
+#define signoton_drivers_field_output_h
+
+#include <signoton/drivers/model.h>
+
+namespace Signoton
+{
+  /**
+   * Fields for ParaView: a snapshot for some steps, and `fields.pvd` which
+   * lists them by time. Displacements are continuous; all else are averages
+   * over cells, because these stay admissible where point values extrapolated
+   * to nodes would not. What no material of the scene has is not written.
+   */
+  template <int dim>
+  class FieldOutput
+  {
+  public:
+    explicit FieldOutput(Model<dim> &model);
+
+    /** Write a snapshot and enter it in the list. */
+    void
+    write(const VectorType  &displacement,
+          const double       time,
+          const unsigned int step);
+
+    /** The time and the file of each snapshot. */
+    using List = std::vector<std::pair<double, std::string>>;
+
+    const List &
+    snapshots() const
+    {
+      return list;
+    }
+
+    /** Go on with a list from before a restart. */
+    void
+    resume(const List &old)
+    {
+      list = old;
+    }
+
+  private:
+    Model<dim> &model;
+    List        list;
+  };
+} // namespace Signoton
+
+#endif

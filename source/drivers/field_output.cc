@@ -1,0 +1,127 @@
+#include <signoton/base/output_file.h>
+#include <signoton/drivers/field_output.h>
+
+#include <deal.II/numerics/data_out.h>
+
+#include <sstream>
+
+namespace Signoton
+{
+  namespace
+  {
+    constexpr std::array<const char *, 6> tensor_names = {
+      {"xx", "yy", "zz", "xy", "xz", "yz"}};
+  } // namespace
+
+  template <int dim>
+  FieldOutput<dim>::FieldOutput(Model<dim> &model)
+    : model(model)
+  {}
+
+  template <int dim>
+  void
+  FieldOutput<dim>::write(const VectorType  &displacement,
+                          const double       time,
+                          const unsigned int step)
+  {
+    VectorType u = model.space->make_relevant_vector();
+    u.copy_locally_owned_data_from(displacement);
+    u.update_ghost_values();
+    DataOut<dim> output;
+    output.attach_dof_handler(model.space->dof_handler);
+    output.add_data_vector(
+      u,
+      std::vector<std::string>(dim, "displacement"),
+      DataOut<dim>::type_dof_data,
+      std::vector<DataComponentInterpretation::DataComponentInterpretation>(
+        dim, DataComponentInterpretation::component_is_part_of_vector));
+
+    const auto averages = model.mechanics->cell_averages(displacement);
+    std::vector<std::pair<std::string, Vector<float>>> cell_data;
+    const auto add = [&](const std::string &name, const auto &value) {
+      cell_data.emplace_back(name, Vector<float>(averages.size()));
+      for (std::size_t i = 0; i < averages.size(); ++i)
+        cell_data.back().second[i] = value(averages[i]);
+    };
+    const auto tensor = [](const std::array<double, 6> &entries) {
+      Tensor2<> result;
+      for (unsigned int c = 0; c < 6; ++c)
+        result.access_raw_entry(c) = entries[c];
+      return result;
+    };
+    const bool any_inelastic =
+      std::any_of(model.materials.begin(),
+                  model.materials.end(),
+                  [](const auto &material) { return !material.is_elastic(); });
+    const bool any_history = model.mechanics->history_width() > 0;
+    for (unsigned int c = 0; c < (dim == 2 ? 4 : 6); ++c)
+      {
+        const std::string entry = tensor_names[c];
+        add("stress_" + entry, [c](const auto &a) { return a.stress[c]; });
+        if (any_inelastic)
+          add("contact_strain_" + entry,
+              [c](const auto &a) { return a.contact_strain[c]; });
+        if (any_history)
+          add("plastic_strain_" + entry,
+              [c](const auto &a) { return a.plastic_strain[c]; });
+      }
+    add("pressure", [&](const auto &a) { return pressure(tensor(a.stress)); });
+    add("shear_intensity", [&](const auto &a) {
+      return shear_intensity(dealii::deviator(tensor(a.stress)));
+    });
+    add("energy_density", [](const auto &a) { return a.energy_density; });
+    add("region", [](const auto &a) { return a.region; });
+    if (any_inelastic)
+      {
+        add("contact_dilatation",
+            [&](const auto &a) { return trace(tensor(a.contact_strain)); });
+        add("contact_shear", [&](const auto &a) {
+          return 2. *
+                 shear_intensity(dealii::deviator(tensor(a.contact_strain)));
+        });
+      }
+    if (any_history)
+      add("plastic_shear", [&](const auto &a) {
+        return 2. * shear_intensity(dealii::deviator(tensor(a.plastic_strain)));
+      });
+    for (const auto &[name, values] : cell_data)
+      output.add_data_vector(values, name, DataOut<dim>::type_cell_data);
+    output.build_patches(model.space->mapping,
+                         model.space->degree,
+                         DataOut<dim>::curved_boundary);
+
+    const std::string  base = "fields-" + Utilities::int_to_string(step, 4);
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(model.communicator);
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(model.communicator);
+    const auto piece = [&](const unsigned int r) {
+      return n_ranks == 1 ?
+               base + ".vtu" :
+               base + "." + Utilities::int_to_string(r, 4) + ".vtu";
+    };
+    const std::string     directory = model.output.directory + "/";
+    DataOutBase::VtkFlags flags;
+    flags.time  = time;
+    flags.cycle = step;
+    output.set_flags(flags);
+    // Through memory: deal.II's writers answer a full disk with an exception on
+    // the rank that meets it, while the others would wait.
+    std::ostringstream text, record, collection;
+    output.write_vtu(text);
+    write_file(model.communicator, directory + piece(rank), text.str(), true);
+
+    list.emplace_back(time, n_ranks == 1 ? piece(0) : base + ".pvtu");
+    std::vector<std::string> pieces;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      pieces.push_back(piece(r));
+    output.write_pvtu_record(record, pieces);
+    if (n_ranks > 1)
+      write_file(model.communicator, directory + base + ".pvtu", record.str());
+    DataOutBase::write_pvd_record(collection, list);
+    write_file(model.communicator, directory + "fields.pvd", collection.str());
+  }
+
+  template class FieldOutput<2>;
+  template class FieldOutput<3>;
+} // namespace Signoton
