@@ -253,20 +253,36 @@ namespace Signoton
               std::exp(std::round(200. * std::log(indicators[i])) / 200.);
         }
 
+    using namespace parallel::distributed::GridRefinement;
+    refine_and_coarsen_fixed_fraction(space.mesh,
+                                      indicators,
+                                      0.,
+                                      coarsen_fraction,
+                                      VectorTools::NormType::L1_norm);
+    std::vector<bool> coarsen;
+    space.mesh.save_coarsen_flags(coarsen);
+
+    // Cells that cannot be refined do not count among those that should: at a
+    // singularity they would soon be the whole fraction.
+    for (const auto &cell : space.mesh.active_cell_iterators())
+      if (cell->is_locally_owned() &&
+          cell->level() >= static_cast<int>(maximum_level))
+        indicators[cell->active_cell_index()] = 0.;
     const bool full = space.dof_handler.n_dofs() > maximum_unknowns;
-    parallel::distributed::GridRefinement::refine_and_coarsen_fixed_fraction(
-      space.mesh,
-      indicators,
-      full ? 0. : refine_fraction,
-      coarsen_fraction,
-      VectorTools::NormType::L1_norm);
+    refine_and_coarsen_fixed_fraction(space.mesh,
+                                      indicators,
+                                      full ? 0. : refine_fraction,
+                                      0.,
+                                      VectorTools::NormType::L1_norm);
+    space.mesh.load_coarsen_flags(coarsen);
     unsigned int changes = 0;
     for (const auto &cell : space.mesh.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           if (cell->level() >= static_cast<int>(maximum_level))
             cell->clear_refine_flag();
-          if (cell->level() <= static_cast<int>(minimum_level))
+          if (cell->refine_flag_set() ||
+              cell->level() <= static_cast<int>(minimum_level))
             cell->clear_coarsen_flag();
           changes += cell->refine_flag_set() ? 1 : 0;
         }

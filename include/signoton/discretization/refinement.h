@@ -52,7 +52,7 @@ namespace Signoton
 
     /**
      * Set refinement and coarsening flags.
-     * @param indicators from traction_jumps(); weighted and rounded here, so
+     * @param indicators from traction_jumps(); weighted, rounded and cut here, so
      *   that the choice does not depend on round-off
      * @param region     by active cell, see Rheology::Region
      * @param mixed      whether points of a cell are in different regions

@@ -46,7 +46,7 @@ namespace Signoton
       unsigned int direct_limit_3d       = 5000;
       unsigned int maximum_iterations    = 400;
       double       aggregation_threshold = 0.02;
-      unsigned int smoother_sweeps       = 2;
+      unsigned int smoother_sweeps       = 4;
     };
 
     LinearSolver(const Parameters &parameters, Ledger &ledger)
