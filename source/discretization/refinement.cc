@@ -45,10 +45,12 @@ namespace Signoton
                           "Coarsest level; if not given, that of the initial "
                           "refinement.",
                           Patterns::Integer(0, 20));
-    handler.add_parameter("Maximum unknowns",
-                          maximum_unknowns,
-                          "No refinement of a mesh with more unknowns.",
-                          Patterns::Integer(1));
+    handler.add_parameter(
+      "Maximum unknowns",
+      maximum_unknowns,
+      "Fewer cells are refined, if any, where the mesh would "
+      "get more unknowns than about this.",
+      Patterns::Integer(1));
     handler.leave_subsection();
   }
 
@@ -268,12 +270,27 @@ namespace Signoton
       if (cell->is_locally_owned() &&
           cell->level() >= static_cast<int>(maximum_level))
         indicators[cell->active_cell_index()] = 0.;
-    const bool full = space.dof_handler.n_dofs() > maximum_unknowns;
-    refine_and_coarsen_fixed_fraction(space.mesh,
-                                      indicators,
-                                      full ? 0. : refine_fraction,
-                                      0.,
-                                      VectorTools::NormType::L1_norm);
+    for (double fraction = refine_fraction; true; fraction *= 0.9)
+      {
+        for (const auto &cell : space.mesh.active_cell_iterators())
+          cell->clear_refine_flag();
+        if (fraction <= 0.01 * refine_fraction)
+          break;
+        refine_and_coarsen_fixed_fraction(
+          space.mesh, indicators, fraction, 0., VectorTools::NormType::L1_norm);
+        double refined = 0.;
+        for (const auto &cell : space.mesh.active_cell_iterators())
+          if (cell->is_locally_owned() && cell->refine_flag_set() &&
+              cell->level() < static_cast<int>(maximum_level))
+            refined += 1.;
+        refined = Utilities::MPI::sum(refined, space.communicator);
+        const double unknowns_after =
+          space.dof_handler.n_dofs() *
+          (1. +
+           ((1 << dim) - 1) * refined / space.mesh.n_global_active_cells());
+        if (unknowns_after <= maximum_unknowns)
+          break;
+      }
     space.mesh.load_coarsen_flags(coarsen);
     unsigned int changes = 0;
     for (const auto &cell : space.mesh.active_cell_iterators())

@@ -14,6 +14,13 @@
 
 namespace Signoton
 {
+  /** What has to be evaluated, and integrated, in a cell. */
+  template <typename Embedding>
+  const EvaluationFlags::EvaluationFlags cell_flags =
+    Embedding::axisymmetric ?
+      EvaluationFlags::values | EvaluationFlags::gradients :
+      EvaluationFlags::gradients;
+
   /**
    * Mechanics for one embedding and degree. See Mechanics for what its
    * functions do; here is how.

@@ -18,7 +18,8 @@ namespace Signoton
       method,
       "auto: direct for small systems, else cg. cg: conjugate gradients with "
       "algebraic multigrid. gmres: the same for non-symmetric tangents. "
-      "direct: sparse factorization.",
+      "direct: sparse factorization, by KLU or, beyond 10,000 unknowns and "
+      "where Trilinos has it, MUMPS.",
       Patterns::Selection("auto|cg|gmres|direct"));
     handler.add_parameter("Direct below in 2D",
                           direct_limit_2d,
@@ -60,10 +61,12 @@ namespace Signoton
          matrix->m() <= (dim == 2 ? parameters.direct_limit_2d :
                                     parameters.direct_limit_3d)))
       {
-        // MUMPS factorizes in parallel and with less fill-in; a Trilinos without
-        // it still has KLU
+        // KLU is the faster one up to about 10,000 unknowns in the plane;
+        // beyond, MUMPS has less fill-in and uses all ranks
         const std::string package =
-          Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
+          matrix->m() > 10000 && Amesos().Query("Amesos_Mumps") ?
+            "Amesos_Mumps" :
+            "Amesos_Klu";
         direct_control = std::make_unique<SolverControl>(1, 0.);
         direct         = std::make_unique<TrilinosWrappers::SolverDirect>(
           *direct_control,

@@ -168,6 +168,19 @@ namespace Signoton::Testing
     };
   }
 
+  /** Whether check(name, law) holds for each of all_laws(); all are tried. */
+  template <typename Check>
+  bool
+  for_all_laws(const Check &check)
+  {
+    bool passed = true;
+    for (const auto &entry : all_laws())
+      passed &=
+        std::visit([&](const auto &law) { return check(entry.name, law); },
+                   entry.law);
+    return passed;
+  }
+
   template <typename Law, typename Number = double>
   History<Law, Number>
   virgin()

@@ -174,10 +174,9 @@ main()
     << std::setw(37) << "D" << std::setw(5) << "W" << std::setw(5) << "C"
     << std::setw(5) << "R" << std::setw(5) << "T" << std::setw(5) << "O"
     << std::setw(5) << "P" << std::endl;
-  bool passed = true;
-  for (const auto &entry : all_laws())
-    passed &=
-      std::visit([&](const auto &law) { return check_law(entry.name, law); },
-                 entry.law);
+  const bool passed =
+    for_all_laws([](const std::string &name, const auto &law) {
+      return check_law(name, law);
+    });
   return passed ? 0 : 1;
 }

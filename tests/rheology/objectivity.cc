@@ -71,10 +71,9 @@ main()
   std::cout << std::left << std::setw(36) << "law" << std::setw(9) << "stress"
             << std::setw(9) << "tangent" << std::setw(9) << "history"
             << "scalars" << std::endl;
-  bool passed = true;
-  for (const auto &entry : all_laws())
-    passed &=
-      std::visit([&](const auto &law) { return check_law(entry.name, law); },
-                 entry.law);
+  const bool passed =
+    for_all_laws([](const std::string &name, const auto &law) {
+      return check_law(name, law);
+    });
   return passed ? 0 : 1;
 }

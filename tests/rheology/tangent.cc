@@ -166,10 +166,9 @@ main()
   std::cout << "Stress = dW/de, tangent = dstress/de, symmetry, 0 <= T <= E;\n"
                "then the same where principal strains coincide\n";
   print_legend();
-  bool passed = true;
-  for (const auto &entry : all_laws())
-    passed &=
-      std::visit([&](const auto &law) { return check_law(entry.name, law); },
-                 entry.law);
+  const bool passed =
+    for_all_laws([](const std::string &name, const auto &law) {
+      return check_law(name, law);
+    });
   return passed ? 0 : 1;
 }

@@ -94,10 +94,9 @@ namespace
 int
 main()
 {
-  bool passed = true;
-  for (const auto &entry : all_laws())
-    passed &=
-      std::visit([&](const auto &law) { return check_law(entry.name, law); },
-                 entry.law);
+  const bool passed =
+    for_all_laws([](const std::string &name, const auto &law) {
+      return check_law(name, law);
+    });
   return passed ? 0 : 1;
 }

@@ -1,0 +1,242 @@
+#ifndef signoton_operators_mechanics_points_templates_h
+#define signoton_operators_mechanics_points_templates_h
+
+#include "mechanics_kernel.h"
+
+// What the kernel knows at its points, without integrals over shape functions:
+// energies, averages, and the way of history to other meshes.
+
+namespace Signoton
+{
+  template <typename Embedding, int degree>
+  template <typename Law>
+  void
+  MechanicsKernel<Embedding, degree>::visit_run(const Law        &law,
+                                                Cell             &cell,
+                                                const Range      &run,
+                                                const VectorType &displacement,
+                                                const Visitor    &visitor)
+  {
+    Rheology::Response<Number>     response;
+    Rheology::History<Law, Number> next;
+    for (unsigned int batch = run.first; batch < run.second; ++batch)
+      {
+        cell.reinit(batch);
+        cell.read_dof_values_plain(displacement);
+        cell.evaluate(cell_flags<Embedding>);
+        for (unsigned int q = 0; q < cell.n_q_points; ++q)
+          {
+            law.template update<Rheology::energies>(
+              strain(cell, q),
+              read_history<Law>(history.accepted(batch, q)),
+              next,
+              response);
+            const Tensor2<Number> *plastic = nullptr;
+            if constexpr (Law::n_tensors > 0)
+              plastic = &next.tensors[0];
+            visitor({batch, q, weight(cell, q), response, plastic});
+          }
+      }
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::visit_points(
+    const VectorType &displacement,
+    const Visitor    &visitor)
+  {
+    VectorType unused; // nothing is integrated
+    initialize_vector(unused);
+    data.template cell_loop<VectorType, VectorType>(
+      [&](const auto &, auto &, const auto &src, const Range &range) {
+        Cell cell(data, all_constraints);
+        for_each_run(range, [&](const auto &law, const Range &run) {
+          visit_run(law, cell, run, src, visitor);
+        });
+      },
+      unused,
+      displacement);
+  }
+
+  template <typename Embedding, int degree>
+  EnergyBalance
+  MechanicsKernel<Embedding, degree>::energy_balance(
+    const VectorType &displacement)
+  {
+    std::array<double, 3 + Rheology::n_regions> sums{};
+    visit_points(displacement, [&](const Point &point) {
+      for (unsigned int i = 0;
+           i < data.n_active_entries_per_cell_batch(point.batch);
+           ++i)
+        {
+          const double volume = point.weight[i];
+          sums[0] += volume * point.response.stored_energy[i];
+          sums[1] += volume * point.response.dissipation[i];
+          sums[2] += volume;
+          sums[3 + static_cast<unsigned int>(point.response.region[i])] +=
+            volume;
+        }
+    });
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        space.communicator,
+                        ArrayView<double>(sums.data(), sums.size()));
+    EnergyBalance balance;
+    balance.stored      = sums[0];
+    balance.dissipation = sums[1];
+    for (unsigned int region = 0; region < Rheology::n_regions; ++region)
+      balance.region_share[region] = sums[3 + region] / sums[2];
+    return balance;
+  }
+
+  template <typename Embedding, int degree>
+  std::vector<CellAverages>
+  MechanicsKernel<Embedding, degree>::cell_averages(
+    const VectorType &displacement)
+  {
+    std::vector<CellAverages> result(space.mesh.n_active_cells());
+    std::vector<double>       volume(result.size(), 0.);
+    visit_points(displacement, [&](const Point &point) {
+      for (unsigned int i = 0;
+           i < data.n_active_entries_per_cell_batch(point.batch);
+           ++i)
+        {
+          const auto cell =
+            data.get_cell_iterator(point.batch, i)->active_cell_index();
+          CellAverages      &average = result[cell];
+          const double       w       = point.weight[i];
+          const unsigned int region =
+            static_cast<unsigned int>(point.response.region[i]);
+          for (unsigned int c = 0; c < 6; ++c)
+            {
+              average.stress[c] +=
+                w * point.response.stress.access_raw_entry(c)[i];
+              average.contact_strain[c] +=
+                w * point.response.contact_strain.access_raw_entry(c)[i];
+              if (point.plastic_strain)
+                average.plastic_strain[c] +=
+                  w * point.plastic_strain->access_raw_entry(c)[i];
+            }
+          average.energy_density += w * point.response.stored_energy[i];
+          average.mixed |= volume[cell] > 0. && region != average.region;
+          average.region = std::max(average.region, region);
+          volume[cell] += w;
+        }
+    });
+    for (std::size_t cell = 0; cell < result.size(); ++cell)
+      if (volume[cell] > 0.)
+        {
+          for (unsigned int c = 0; c < 6; ++c)
+            {
+              result[cell].stress[c] /= volume[cell];
+              result[cell].contact_strain[c] /= volume[cell];
+              result[cell].plastic_strain[c] /= volume[cell];
+            }
+          result[cell].energy_density /= volume[cell];
+        }
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::stress_field(
+    const VectorType      &displacement,
+    const PointSpace<dim> &points,
+    VectorType            &field)
+  {
+    std::vector<types::global_dof_index> dofs(points.fe.n_dofs_per_cell());
+    visit_points(displacement, [&](const Point &point) {
+      const auto stress = to_mesh<dim>(point.response.stress);
+      for (unsigned int i = 0;
+           i < data.n_active_entries_per_cell_batch(point.batch);
+           ++i)
+        {
+          point_dofs(points, point.batch, i, dofs);
+          for (unsigned int c = 0; c < points.n_components; ++c)
+            field[dofs[points.cell_index(c, point.q)]] =
+              stress.access_raw_entry(c)[i];
+        }
+    });
+  }
+
+  template <typename Embedding, int degree>
+  unsigned int
+  MechanicsKernel<Embedding, degree>::history_width() const
+  {
+    unsigned int result = 0;
+    for (const auto &law : laws)
+      result = std::max(result,
+                        std::visit(
+                          [](const auto &l) {
+                            return width<std::decay_t<decltype(l)>>();
+                          },
+                          law));
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::point_dofs(
+    const PointSpace<dim>                &points,
+    const unsigned int                    batch,
+    const unsigned int                    lane,
+    std::vector<types::global_dof_index> &dofs) const
+  {
+    const auto cell = data.get_cell_iterator(batch, lane);
+    typename DoFHandler<dim>::active_cell_iterator(&space.mesh,
+                                                   cell->level(),
+                                                   cell->index(),
+                                                   &points.dof_handler)
+      ->get_dof_indices(dofs);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::save_history(
+    const PointSpace<dim> &points,
+    VectorType            &field)
+  {
+    std::vector<types::global_dof_index> dofs(points.fe.n_dofs_per_cell());
+    for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
+      for (unsigned int i = 0; i < data.n_active_entries_per_cell_batch(batch);
+           ++i)
+        {
+          point_dofs(points, batch, i, dofs);
+          for (unsigned int q = 0; q < space.quadrature.size(); ++q)
+            for (unsigned int c = 0; c < history.width(batch); ++c)
+              field[dofs[points.cell_index(c, q)]] =
+                history.accepted(batch, q)[c][i];
+        }
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::load_history(
+    const PointSpace<dim> &points,
+    const VectorType      &field)
+  {
+    std::vector<types::global_dof_index> dofs(points.fe.n_dofs_per_cell());
+    for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
+      {
+        const unsigned int n_tensor_values = std::visit(
+          [](const auto &law) {
+            return std::decay_t<decltype(law)>::n_tensors * n_tensor_entries;
+          },
+          laws[material_of_batch[batch]]);
+        for (unsigned int i = 0;
+             i < data.n_active_entries_per_cell_batch(batch);
+             ++i)
+          {
+            point_dofs(points, batch, i, dofs);
+            for (unsigned int q = 0; q < space.quadrature.size(); ++q)
+              for (unsigned int c = 0; c < history.width(batch); ++c)
+                {
+                  const double value = field[dofs[points.cell_index(c, q)]];
+                  history.accepted(batch, q)[c][i] =
+                    c < n_tensor_values ? value : std::max(value, 0.);
+                }
+          }
+      }
+  }
+} // namespace Signoton
+
+#endif

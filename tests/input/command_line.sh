@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# What the command line answers: each call with its status, errors said once
+# whatever the number of ranks, and --explain and --validate of every scene.
+# usage: command_line.sh SIGNOTON SOURCE_DIRECTORY
+set -eu
+signoton=$1
+source=$2
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+cd "$dir"
+scene=$source/tests/scenes/adaptive_granular.prm
+problems=0
+
+# expect STATUS 'WORDS OF THE MESSAGE' ARGUMENTS...
+expect() {
+  local status=$1 words=$2 found=0
+  shift 2
+  "$signoton" "$@" >out 2>&1 || found=$?
+  if [ "$found" != "$status" ] || ! grep -qF -e "$words" out; then
+    echo "signoton $*: status $found, expected $status with '$words', but:"
+    cat out
+    problems=$((problems + 1))
+  fi
+}
+
+expect 0 'mpirun -np N signoton' --help
+expect 0 'deal.II' --version
+expect 0 'set Rheology' --template statics
+expect 2 'statics' --template statistics
+expect 2 'no scene file'
+expect 2 "unknown option '--explian'" --explian "$scene"
+expect 2 'a second scene' "$scene" "$scene"
+expect 2 "'--set' at the end" "$scene" --set
+expect 2 'absent.prm' absent.prm
+expect 2 "unknown key 'Degre'" "$scene" --set 'Discretization/Degre=1'
+expect 2 'Discretization / Degree' "$scene" --set 'Discretization/Degree=7'
+expect 2 '--set' "$scene" --set 'Discretization/Degree'
+expect 2 'absent/resolved.prm' --resume absent
+expect 0 'The scene is valid' --validate "$scene" --set 'Discretization/Degree=1'
+expect 2 'Materials' --validate "$scene" --set 'Materials/sand/Bulk modulus=-1'
+
+for shipped in "$source"/prm/*.prm; do
+  expect 0 'Memory forecast' --explain "$shipped"
+  grep -q '^inertia  *no  *0 ' out || {
+    echo "$shipped: --explain does not say that inertia is off"
+    problems=$((problems + 1))
+  }
+  expect 0 'The scene is valid' --validate "$shipped"
+done
+
+# on more ranks, one message, and the same status
+status=0
+mpirun -np 2 "$signoton" "$scene" --set 'Discretization/Degree=7' >out 2>&1 ||
+  status=$?
+[ "$status" = 2 ] && [ "$(grep -c 'where:' out)" = 1 ] || {
+  echo "two ranks: status $status and $(grep -c 'where:' out) messages"
+  problems=$((problems + 1))
+}
+exit "$problems"
