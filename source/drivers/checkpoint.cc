@@ -38,8 +38,8 @@ namespace Signoton
               {"numbers of history a point", model.mechanics->history_width()}};
     }
 
-    /** Whether a file of so many bytes can be made, which no free space of the
-     *  disk tells: there are quotas and limits of a process. */
+    /** Whether a file of so many bytes can be made. The free space of the disk
+     *  does not tell: there are quotas, and limits of a process. */
     bool
     has_room(const std::string &directory, const double bytes)
     {

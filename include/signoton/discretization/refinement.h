@@ -52,8 +52,9 @@ namespace Signoton
 
     /**
      * Set refinement and coarsening flags.
-     * @param indicators from traction_jumps(); weighted, rounded and cut here, so
-     *   that the choice does not depend on round-off
+     * @param indicators from traction_jumps(); weighted and rounded here, so
+     *   that the choice does not depend on round-off, and zero on return where
+     *   a cell is at the finest level
      * @param region     by active cell, see Rheology::Region
      * @param mixed      whether points of a cell are in different regions
      * @return whether any cell is to change

@@ -27,9 +27,9 @@ namespace Signoton
   /**
    * Trilinos' solvers for an assembled matrix: conjugate gradients or GMRES
    * with smoothed aggregation (ML), which is given the rigid body motions as
-   * near-null space, or a direct factorization (KLU or MUMPS) for small systems, and for plane
-   * ones of middling size: it does not mind the nearly singular tangents of
-   * loosened and flowing zones.
+   * near-null space; or a factorization (KLU or MUMPS) of small systems, and of
+   * plane ones of middling size: it does not mind the nearly singular tangents
+   * of loosened and flowing zones.
    */
   class LinearSolver
   {
