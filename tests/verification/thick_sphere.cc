@@ -10,7 +10,7 @@ main(int argc, char **argv)
   return Verification::main(argc, argv, [](Report &report) {
     RadialStudy study;
     study.overrides = {"Load steps/Step size=1", "Linear solver/Method=direct"};
-    study.levels    = {{{2, 5}, {1, 4}}};
+    study.levels    = {{{2, 6}, {1, 4}}};
 
     study.scene             = source_directory + "/prm/thick_sphere.prm";
     const double kappa      = 0.5;
