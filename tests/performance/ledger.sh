@@ -6,10 +6,7 @@ build=$(cd "$1" && pwd)
 ranks=${2:-2}
 shift $(($# < 2 ? $# : 2))
 prm=$(cd "$(dirname "$0")/../../prm" && pwd)
-export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none \
-  OMPI_MCA_mpi_yield_when_idle=1
-[ "$(id -u)" != 0 ] ||
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+. "$(dirname "$0")/../tools/mpi_environment.sh"
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 [ $# -gt 0 ] || set -- $(cd "$prm" && ls *.prm)

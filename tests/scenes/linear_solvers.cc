@@ -2,6 +2,7 @@
 // solution, with and without history.
 
 #include "physical_numbers.h"
+#include "verdicts.h"
 
 #include <signoton/scene/scene.h>
 
@@ -13,8 +14,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  std::ofstream                    output("output");
-  bool                             all_good = true;
+  Verdicts                         verdict;
   for (const std::string scene : {"adaptive_granular", "adaptive_plastic"})
     {
       PhysicalNumbers::Line reference;
@@ -47,10 +47,8 @@ main(int argc, char **argv)
                         1e-8 * scale[PhysicalNumbers::group(line[i].first)];
               }
           good &= compared > 10;
-          output << scene << " by " << method << ": "
-                 << (good ? "the same" : "DIFFERS") << "\n";
-          all_good &= good;
+          verdict(scene + " by " + method, good);
         }
     }
-  return all_good ? 0 : 1;
+  return verdict.status();
 }

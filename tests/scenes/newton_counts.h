@@ -2,6 +2,7 @@
 #define signoton_tests_newton_counts_h
 
 #include "physical_numbers.h"
+#include "verdicts.h"
 
 #include <signoton/scene/scene.h>
 

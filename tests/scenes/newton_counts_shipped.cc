@@ -10,15 +10,13 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  std::ofstream                    output("output");
-  bool                             all_good = true;
+  Verdicts                         verdict;
   const auto                       count = [&](const std::string              &scene,
                          const std::string              &material,
                          const std::vector<std::string> &settings) {
-    const bool good =
-      NewtonCounts::sweep("prm/" + scene + ".prm", material, {{}}, settings);
-    output << scene << ": " << (good ? "ok" : "FAILED") << "\n";
-    all_good &= good;
+    verdict(
+      scene,
+      NewtonCounts::sweep("prm/" + scene + ".prm", material, {{}}, settings));
   };
   count("quickstart", "ground", {});
   count("cut_specimen", "soil", {"Load steps/End time=0.4"});
@@ -30,5 +28,5 @@ main(int argc, char **argv)
          "Geometry/Initial refinement=0",
          "Refinement/Cycles in first step=2",
          "Refinement/Maximum unknowns=6000"});
-  return all_good ? 0 : 1;
+  return verdict.status();
 }

@@ -5,8 +5,7 @@
 set -eu
 signoton=$1
 scene=$2
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
+. "$(dirname "$0")/../tools/mpi_environment.sh"
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 

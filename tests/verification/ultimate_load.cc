@@ -3,6 +3,7 @@
 // than a column of the width of its ligament.
 
 #include "physical_numbers.h"
+#include "verdicts.h"
 
 #include <signoton/scene/scene.h>
 
@@ -37,8 +38,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  std::ofstream                    output("output");
-  bool                             all_good = true;
+  Verdicts                         verdict;
 
   const auto check = [&](const std::string         &what,
                          const std::vector<double> &load,
@@ -54,8 +54,7 @@ main(int argc, char **argv)
         good = load.back() >= lower && load.back() <= upper &&
                load.back() - load[load.size() - 2] < 0.02 * load.back();
       }
-    output << what << ": " << (good ? "ok" : "FAILED") << "\n";
-    all_good &= good;
+    verdict(what, good);
   };
   check("pulled, 30 degrees", loads("cut_specimen", "30"), 1.478, 1.607);
   check("pulled, 20 degrees", loads("cut_specimen", "20"), 1.859, 2.013);
@@ -63,5 +62,5 @@ main(int argc, char **argv)
         loads("cut_specimen_compression", "30"),
         2. * std::tan(numbers::PI / 3.),
         std::numeric_limits<double>::max());
-  return all_good ? 0 : 1;
+  return verdict.status();
 }
