@@ -269,8 +269,9 @@ namespace Signoton
         scene.model.output.directory =
           "output/" + std::filesystem::path(options.scene_file).stem().string();
       scene.build();
-      screen << "Signoton " SIGNOTON_VERSION " on "
-             << Utilities::MPI::n_mpi_processes(communicator) << " ranks: "
+      const unsigned int ranks = Utilities::MPI::n_mpi_processes(communicator);
+      screen << "Signoton " SIGNOTON_VERSION " on " << ranks
+             << (ranks == 1 ? " rank: " : " ranks: ")
              << (scene.title.empty() ? options.scene_file : scene.title)
              << "\n";
       if (options.action != Options::Action::run)

@@ -12,8 +12,8 @@ main(int argc, char **argv)
     study.overrides     = {"Load steps/Step size=0.5",
                            "Linear solver/Method=direct"};
     study.coarse_edge   = 0.1;
-    study.levels        = {{{2, 5}, {1, 4}}};
-    study.allowed_error = {{2e-2, 1e-3}};
+    study.levels        = {{{2, 7}, {1, 4}}};
+    study.allowed_error = {{1e-3, 1e-3}};
     const double a = 0.1, b = 0.2, E = 210e9, nu = 0.3, Y = 240e6;
     const double numbers[][3] = {{0.12, 9.7677267188e-05, 3.456e-05},
                                  {0.15, 2.1530985678e-04, 6.75e-05},

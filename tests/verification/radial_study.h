@@ -38,6 +38,7 @@ namespace Verification
     double coarse_edge = 1.;
     /** Coarsest and finest level for each degree. */
     std::array<std::pair<unsigned int, unsigned int>, 2> levels;
+    std::vector<unsigned int>                            degrees = {1, 2};
     /** Requirements on the finest mesh. */
     std::array<double, 2> allowed_error = {{1e-2, 1e-3}};
     /** Over all meshes. */
@@ -48,7 +49,7 @@ namespace Verification
                const std::string    &title,
                const RadialSolution &exact) const
     {
-      for (const unsigned int p : {1U, 2U})
+      for (const unsigned int p : degrees)
         {
           Convergence study;
           report.out << title << ", degree " << p
