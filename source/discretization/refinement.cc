@@ -256,54 +256,70 @@ namespace Signoton
         }
 
     using namespace parallel::distributed::GridRefinement;
+    const auto owned_cells_with = [&](const auto &property) {
+      double sum = 0.;
+      for (const auto &cell : space.mesh.active_cell_iterators())
+        if (cell->is_locally_owned() && property(cell))
+          sum += 1.;
+      return Utilities::MPI::sum(sum, space.communicator);
+    };
+
+    // Coarsening first: what it frees can be refined elsewhere.
     refine_and_coarsen_fixed_fraction(space.mesh,
                                       indicators,
                                       0.,
                                       coarsen_fraction,
                                       VectorTools::NormType::L1_norm);
+    for (const auto &cell : space.mesh.active_cell_iterators())
+      {
+        cell->clear_refine_flag();
+        if (cell->level() <= static_cast<int>(minimum_level))
+          cell->clear_coarsen_flag();
+      }
+    // leaves the flags of complete families only
+    space.mesh.prepare_coarsening_and_refinement();
+    const double coarsened = owned_cells_with(
+      [](const auto &cell) { return cell->coarsen_flag_set(); });
     std::vector<bool> coarsen;
     space.mesh.save_coarsen_flags(coarsen);
 
     // Cells that cannot be refined do not count among those that should: at a
     // singularity they would soon be the whole fraction.
+    const auto is_finest = [&](const auto &cell) {
+      return cell->level() >= static_cast<int>(maximum_level);
+    };
     for (const auto &cell : space.mesh.active_cell_iterators())
-      if (cell->is_locally_owned() &&
-          cell->level() >= static_cast<int>(maximum_level))
+      if (cell->is_locally_owned() && is_finest(cell))
         indicators[cell->active_cell_index()] = 0.;
+    const double cells    = space.mesh.n_global_active_cells();
+    const double children = 1 << dim;
+    double       refined  = 0.;
     for (double fraction = refine_fraction; true; fraction *= 0.9)
       {
         for (const auto &cell : space.mesh.active_cell_iterators())
           cell->clear_refine_flag();
+        refined = 0.;
         if (fraction <= 0.01 * refine_fraction)
           break;
         refine_and_coarsen_fixed_fraction(
           space.mesh, indicators, fraction, 0., VectorTools::NormType::L1_norm);
-        double refined = 0.;
         for (const auto &cell : space.mesh.active_cell_iterators())
-          if (cell->is_locally_owned() && cell->refine_flag_set() &&
-              cell->level() < static_cast<int>(maximum_level))
-            refined += 1.;
-        refined = Utilities::MPI::sum(refined, space.communicator);
-        const double unknowns_after =
-          space.dof_handler.n_dofs() *
-          (1. +
-           ((1 << dim) - 1) * refined / space.mesh.n_global_active_cells());
-        if (unknowns_after <= maximum_unknowns)
+          if (is_finest(cell))
+            cell->clear_refine_flag();
+        refined = owned_cells_with(
+          [](const auto &cell) { return cell->refine_flag_set(); });
+        const double cells_after =
+          cells + (children - 1.) * refined - (1. - 1. / children) * coarsened;
+        if (space.dof_handler.n_dofs() * cells_after / cells <=
+            maximum_unknowns)
           break;
       }
     space.mesh.load_coarsen_flags(coarsen);
-    unsigned int changes = 0;
     for (const auto &cell : space.mesh.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          if (cell->level() >= static_cast<int>(maximum_level))
-            cell->clear_refine_flag();
-          if (cell->refine_flag_set() ||
-              cell->level() <= static_cast<int>(minimum_level))
-            cell->clear_coarsen_flag();
-          changes += cell->refine_flag_set() ? 1 : 0;
-        }
-    return Utilities::MPI::sum(changes, space.communicator) > 0;
+      if (cell->refine_flag_set())
+        cell->clear_coarsen_flag();
+    // To coarsen alone, and solve again, should be worth it.
+    return refined > 0. || coarsened > 0.01 * cells;
   }
 
 #define INSTANTIATE(dim)                                                 \

@@ -57,7 +57,8 @@ namespace Signoton
      *   a cell is at the finest level
      * @param region     by active cell, see Rheology::Region
      * @param mixed      whether points of a cell are in different regions
-     * @return whether any cell is to change
+     * @return whether the mesh should change: cells are to be refined, or
+     *   enough of them to be coarsened
      */
     template <int dim>
     bool
