@@ -220,6 +220,41 @@ namespace Signoton
     return indicators;
   }
 
+  namespace
+  {
+    /**
+     * Leave the coarsening flags only of complete families without a finer
+     * neighbor. Whether such a neighbor is to be coarsened too is not known if
+     * it is on another rank, and the mesh must not depend on that.
+     */
+    template <int dim>
+    void
+    keep_coarsenable(parallel::distributed::Triangulation<dim> &mesh,
+                     const unsigned int                         minimum_level)
+    {
+      std::vector<int> finest(mesh.n_vertices(), 0);
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (!cell->is_artificial())
+          for (const auto v : cell->vertex_indices())
+            finest[cell->vertex_index(v)] =
+              std::max(finest[cell->vertex_index(v)], cell->level());
+      for (const auto &cell : mesh.active_cell_iterators())
+        {
+          cell->clear_refine_flag();
+          bool may_coarsen = cell->is_locally_owned() &&
+                             cell->level() > static_cast<int>(minimum_level);
+          for (const auto v : cell->vertex_indices())
+            may_coarsen &= finest[cell->vertex_index(v)] <= cell->level();
+          for (const auto f : cell->face_indices())
+            may_coarsen &= !cell->has_periodic_neighbor(f) ||
+                           cell->periodic_neighbor(f)->is_active();
+          if (!may_coarsen)
+            cell->clear_coarsen_flag();
+        }
+      mesh.prepare_coarsening_and_refinement();
+    }
+  } // namespace
+
   template <int dim>
   bool
   Refinement::mark(Space<dim>                      &space,
@@ -270,14 +305,7 @@ namespace Signoton
                                       0.,
                                       coarsen_fraction,
                                       VectorTools::NormType::L1_norm);
-    for (const auto &cell : space.mesh.active_cell_iterators())
-      {
-        cell->clear_refine_flag();
-        if (cell->level() <= static_cast<int>(minimum_level))
-          cell->clear_coarsen_flag();
-      }
-    // leaves the flags of complete families only
-    space.mesh.prepare_coarsening_and_refinement();
+    keep_coarsenable(space.mesh, minimum_level);
     const double coarsened = owned_cells_with(
       [](const auto &cell) { return cell->coarsen_flag_set(); });
     std::vector<bool> coarsen;

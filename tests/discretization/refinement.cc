@@ -31,7 +31,7 @@ namespace
       std::to_string(static_cast<int>(maximum_unknowns)) + "\nend\n");
 
     bool         is_fine_there = true, stays_below = true;
-    unsigned int marked = 0;
+    unsigned int meshes = 0, cells = 0;
     for (double x = 0.1; x < 0.95; x += 0.1)
       {
         Point<dim> peak;
@@ -54,9 +54,10 @@ namespace
                                  std::vector<unsigned int>(n),
                                  std::vector<bool>(n)))
               break;
-            ++marked;
             space.mesh.execute_coarsening_and_refinement();
             space.distribute_dofs();
+            ++meshes;
+            cells += space.mesh.n_global_active_cells();
             stays_below &= space.dof_handler.n_dofs() < 1.2 * maximum_unknowns;
           }
         double level = 0.;
@@ -68,8 +69,7 @@ namespace
       }
     out << dim << "D: finest at the peak: " << (is_fine_there ? "yes" : "no")
         << ", below the maximum: " << (stays_below ? "yes" : "no") << ", "
-        << marked << " meshes, the last of "
-        << space.mesh.n_global_active_cells() << " cells" << std::endl;
+        << meshes << " meshes of " << cells << " cells together" << std::endl;
   }
 } // namespace
 
