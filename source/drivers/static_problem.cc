@@ -160,7 +160,7 @@ namespace Signoton
     if (!(lift.linfty_norm() > 1e-14 * u.linfty_norm()))
       return true;
     evaluate(u, gradient, true);
-    model.mechanics->apply_tangent_with_lift(lift, du);
+    model.mechanics->apply_tangent(lift, du);
     gradient += du;
     gradient *= -1.;
     du                        = 0.;

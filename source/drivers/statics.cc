@@ -63,9 +63,10 @@ namespace Signoton
     if (!(weakest < 0.1))
       return result;
     u = guess;
-    for (double ratio = 0.1; true; ratio = std::max(0.1 * ratio, weakest))
+    const double weakest_of_all = 1e-8; // there may be no binder at all
+    for (double ratio = 0.1; true; ratio *= 0.1)
       {
-        const bool is_last = ratio <= weakest * (1. + 1e-12);
+        const bool is_last = ratio <= 1.1 * std::max(weakest, weakest_of_all);
         if (is_last)
           model.mechanics->set_binder_ratio();
         else
@@ -153,8 +154,6 @@ namespace Signoton
         }
       space.mesh.execute_coarsening_and_refinement();
     }
-    const double trial_time = time + record.step_size;
-    model.set_time(time);
     setup_unknowns();
     {
       const auto timer = model.ledger.time("mesh and transfer");
@@ -162,7 +161,8 @@ namespace Signoton
       model.mechanics->initialize_vector(trial);
       std::vector<VectorType *> moved{&displacement, &trial};
       move.interpolate(moved);
-      space.constraints.distribute(displacement);
+      // The accepted state need not fulfill conditions: the next one will.
+      space.mesh_constraints.distribute(displacement);
       if (history_space)
         {
           VectorType history = history_space->make_relevant_vector();
@@ -179,7 +179,6 @@ namespace Signoton
       model.mechanics->energy_balance(displacement).stored;
     record.transfer_drift += stored_after - stored_before;
     mesh_force = problem.internal_force_of_mesh(displacement);
-    model.set_time(trial_time);
   }
 
   template <int dim>
@@ -188,21 +187,21 @@ namespace Signoton
   {
     const LoadSteps &steps = model.load_steps;
     bool             cut   = false;
+    unsigned int     cycle = 0;
+    record                 = StepRecord();
     while (true)
       {
         // land exactly on the end, and avoid a sliver of a last step
         double dt = std::min(step_size, steps.end - time);
         if (time + 1.001 * dt >= steps.end)
           dt = steps.end - time;
-        record           = StepRecord();
         record.step_size = dt;
 
         VectorType trial(displacement);
         last_result = solve(time + dt, trial, true);
         const unsigned int cycles =
           model.refinement.cycles(results.n_accepted() + 1);
-        for (unsigned int cycle = 0; cycle < cycles && last_result.converged;
-             ++cycle)
+        for (; cycle < cycles && last_result.converged; ++cycle)
           {
             if (!refine(trial))
               break;
@@ -230,13 +229,23 @@ namespace Signoton
   }
 
   template <int dim>
+  bool
+  Statics<dim>::is_last_step() const
+  {
+    return !(time < model.load_steps.end);
+  }
+
+  template <int dim>
   void
   Statics<dim>::accept(const VectorType &trial, const double dt)
   {
     const auto timer = model.ledger.time("results");
-    // the trial history must be that of the converged iterate
-    VectorType force(trial);
-    record.balance       = model.mechanics->energy_balance(trial);
+    time += dt;
+    if (time + 1e-12 * std::abs(model.load_steps.end) > model.load_steps.end)
+      time = model.load_steps.end;
+    record.time    = time;
+    record.balance = model.mechanics->energy_balance(trial);
+    // writes the trial history of the converged iterate, to be committed
     VectorType new_force = problem.internal_force_of_mesh(trial);
     VectorType increment(trial);
     increment -= displacement;
@@ -246,13 +255,11 @@ namespace Signoton
     for (const auto &reaction : problem.reactions(trial))
       for (unsigned int d = 0; d < dim; ++d)
         record.reactions.push_back(reaction[d]);
+    // Regions and flow are those of the step: they are seen from its begin.
+    results.step(trial, record, is_last_step());
     model.mechanics->commit();
     displacement = trial;
     mesh_force   = new_force;
-    time += dt;
-    if (time + 1e-12 * std::abs(model.load_steps.end) > model.load_steps.end)
-      time = model.load_steps.end;
-    record.time = time;
   }
 
   template <int dim>
@@ -264,7 +271,6 @@ namespace Signoton
       {
         setup_unknowns();
         model.mechanics->initialize_vector(displacement);
-        model.space->constraints.distribute(displacement);
       }
     else
       {
@@ -276,13 +282,13 @@ namespace Signoton
         setup_unknowns();
         model.mechanics->initialize_vector(displacement);
         checkpoint.load_fields(history_space.get(), displacement);
-        model.space->constraints.distribute(displacement);
+        model.space->mesh_constraints.distribute(displacement);
         results.resume(checkpoint);
       }
     results.start(time);
     mesh_force = problem.internal_force_of_mesh(displacement);
 
-    while (time < model.load_steps.end)
+    while (!is_last_step())
       {
         if (!advance())
           {
@@ -290,10 +296,8 @@ namespace Signoton
             results.no_equilibrium(time, step_size, last_result);
             return ExitStatus::no_equilibrium;
           }
-        const bool is_last = !(time < model.load_steps.end);
-        results.step(displacement, record, is_last);
         const unsigned int every = model.output.checkpoint_every;
-        if (every > 0 && (is_last || results.n_accepted() % every == 0))
+        if (every > 0 && (is_last_step() || results.n_accepted() % every == 0))
           {
             const auto      timer = model.ledger.time("output");
             Checkpoint<dim> checkpoint(model, results.checkpoint_directory());

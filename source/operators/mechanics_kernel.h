@@ -58,9 +58,6 @@ namespace Signoton
     apply_tangent(const VectorType &increment,
                   VectorType       &force) const override;
     void
-    apply_tangent_with_lift(const VectorType &increment,
-                            VectorType       &force) const override;
-    void
     assemble(TrilinosWrappers::SparseMatrix &matrix,
              const double                    regularization) override;
     void
@@ -172,10 +169,6 @@ namespace Signoton
     /** The linear cell operation on values that have been read. */
     void
     tangent_operation(Cell &cell, const double regularization) const;
-    void
-    tangent_loop(const VectorType &increment,
-                 VectorType       &force,
-                 const bool        with_lift) const;
 
     const Space<dim>                      &space;
     const std::vector<Rheology::Material> &materials;

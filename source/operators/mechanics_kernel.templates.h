@@ -314,9 +314,8 @@ namespace Signoton
 
   template <typename Embedding, int degree>
   void
-  MechanicsKernel<Embedding, degree>::tangent_loop(const VectorType &increment,
-                                                   VectorType       &force,
-                                                   const bool with_lift) const
+  MechanicsKernel<Embedding, degree>::apply_tangent(const VectorType &increment,
+                                                    VectorType &force) const
   {
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &dst, const auto &src, const Range &range) {
@@ -324,10 +323,7 @@ namespace Signoton
         for (unsigned int batch = range.first; batch < range.second; ++batch)
           {
             cell.reinit(batch);
-            if (with_lift)
-              cell.read_dof_values_plain(src);
-            else
-              cell.read_dof_values(src);
+            cell.read_dof_values_plain(src);
             tangent_operation(cell, 0.);
             cell.distribute_local_to_global(dst);
           }
@@ -335,23 +331,6 @@ namespace Signoton
       force,
       increment,
       true);
-  }
-
-  template <typename Embedding, int degree>
-  void
-  MechanicsKernel<Embedding, degree>::apply_tangent(const VectorType &increment,
-                                                    VectorType &force) const
-  {
-    tangent_loop(increment, force, false);
-  }
-
-  template <typename Embedding, int degree>
-  void
-  MechanicsKernel<Embedding, degree>::apply_tangent_with_lift(
-    const VectorType &increment,
-    VectorType       &force) const
-  {
-    tangent_loop(increment, force, true);
   }
 
   template <typename Embedding, int degree>

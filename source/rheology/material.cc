@@ -144,6 +144,21 @@ namespace Signoton::Rheology
            rheology == "elastic plastic granular";
   }
 
+  bool
+  Material::has_binder() const
+  {
+    return binder_kind != "none";
+  }
+
+  bool
+  Material::may_lose_stiffness() const
+  {
+    const Moduli parallel = binder({});
+    return !is_elastic() && admissible_set != "von mises" &&
+           admissible_set != "tresca" &&
+           !(parallel.bulk > 0. && parallel.shear > 0.);
+  }
+
   std::vector<std::string>
   Material::required_keys() const
   {

@@ -44,7 +44,7 @@ namespace Signoton
     const auto plastic =
       names_of(materials, [](const auto &m) { return !m.is_reversible(); });
     const auto binder =
-      names_of(materials, [](const auto &m) { return m.binder_ratio() < 1.; });
+      names_of(materials, [](const auto &m) { return m.has_binder(); });
     const auto heavy =
       names_of(materials, [](const auto &m) { return m.density > 0.; });
     const bool gravity = model.gravity && !heavy.empty();
@@ -67,7 +67,7 @@ namespace Signoton
              plastic.empty() ? "no plastic hinge: the response is reversible" :
                                "plastic hinge in " + plastic,
              2 * model.mechanics->history_width() * number},
-            {"proportional binder",
+            {"elastic binder",
              !binder.empty(),
              binder.empty() ? "no binder" : "materials " + binder,
              0},

@@ -233,8 +233,7 @@ namespace Signoton
     space.update_constraints(model.conditions);
     check_supports();
     for (const auto &material : model.materials)
-      if (material.has_cone() && !(material.binder_ratio() < 1.) &&
-          !(model.newton.regularization > 0.))
+      if (material.may_lose_stiffness() && !(model.newton.regularization > 0.))
         model.newton.regularization = 1e-6;
   }
 

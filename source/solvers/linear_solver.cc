@@ -56,6 +56,22 @@ namespace Signoton
     const auto timer = ledger.time("preconditioner");
     clear();
     matrix = &new_matrix;
+    try
+      {
+        prepare(near_null_space, dim, degree);
+        is_ready = true;
+      }
+    catch (const ExceptionBase &)
+      {
+        // a zero pivot or an empty row; the same on all ranks
+      }
+  }
+
+  void
+  LinearSolver::prepare(const std::vector<std::vector<double>> &near_null_space,
+                        const unsigned int                      dim,
+                        const unsigned int                      degree)
+  {
     if (parameters.method == "direct" ||
         (parameters.method == "auto" &&
          matrix->m() <= (dim == 2 ? parameters.direct_limit_2d :
@@ -106,7 +122,8 @@ namespace Signoton
   {
     amg.reset();
     direct.reset();
-    matrix = nullptr;
+    matrix   = nullptr;
+    is_ready = false;
   }
 
   LinearResult
@@ -116,6 +133,11 @@ namespace Signoton
   {
     const auto   timer = ledger.time("linear solve");
     LinearResult result;
+    if (!is_ready)
+      {
+        result.reason = "the matrix is singular";
+        return result;
+      }
     const double rhs_norm = rhs.l2_norm();
     if (!(rhs_norm > 0.))
       {

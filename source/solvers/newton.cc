@@ -28,7 +28,8 @@ namespace Signoton
                           regularization,
                           "Multiple of the elastic tangent added to the "
                           "tangent from the start. 0: only where the linear "
-                          "solver needs it. The residual never has it.",
+                          "solver needs it, and 1e-6 if a material can lose "
+                          "all stiffness. The residual never has it.",
                           Patterns::Double(0., 1.));
     handler.leave_subsection();
   }

@@ -51,8 +51,14 @@ namespace Signoton
     void
     transfer(VectorType &trial);
 
+    /** Report the trial state and make it the accepted one. */
     void
     accept(const VectorType &trial, const double dt);
+
+    /** Whether the accepted state, or the one being reported, is at the end of
+     *  the load history. */
+    bool
+    is_last_step() const;
 
     Model<dim>                      &model;
     StaticProblem<dim>               problem;

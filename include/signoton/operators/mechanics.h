@@ -73,19 +73,15 @@ namespace Signoton
                    const bool        with_tangent) = 0;
 
     /** The internal force with the entries of constrained unknowns, which are
-     *  the reactions there. Does not touch history. */
+     *  the reactions there. Writes the trial history, as internal_force()
+     *  does. */
     virtual void
     reactions(const VectorType &displacement, VectorType &force) = 0;
 
-    /** Product of the kept tangent with an increment that vanishes where the
-     *  displacement is prescribed. */
+    /** Product of the kept tangent with an increment that may be anything where
+     *  the displacement is prescribed. */
     virtual void
     apply_tangent(const VectorType &increment, VectorType &force) const = 0;
-
-    /** The same for an increment that fulfills inhomogeneous constraints. */
-    virtual void
-    apply_tangent_with_lift(const VectorType &increment,
-                            VectorType       &force) const = 0;
 
     /**
      * The kept tangent as a matrix.

@@ -60,6 +60,15 @@ namespace Signoton::Rheology
     bool
     has_cone() const;
 
+    /** Whether the tangent can vanish: at the vertex of a cone without a binder
+     *  in parallel. */
+    bool
+    may_lose_stiffness() const;
+
+    /** Whether an elastic binder is in parallel with the contact. */
+    bool
+    has_binder() const;
+
     std::string  name;
     unsigned int id      = 0;
     double       density = 0.;

@@ -55,7 +55,8 @@ namespace Signoton
     {}
 
     /**
-     * Prepare for a matrix, which must live as long as solves go on.
+     * Prepare for a matrix, which must live as long as solves go on. If it turns
+     * out singular, it is solve() that says so.
      * @param near_null_space vectors of locally owned entries
      * @param dim unknowns at a node, which are numbered one after the other
      * @param degree polynomial degree of the elements
@@ -74,16 +75,17 @@ namespace Signoton
     LinearResult
     solve(VectorType &solution, const VectorType &rhs, const double tolerance);
 
-    bool
-    is_direct() const
-    {
-      return direct != nullptr;
-    }
-
   private:
+    /** Factorize, or set up the multigrid. */
+    void
+    prepare(const std::vector<std::vector<double>> &near_null_space,
+            const unsigned int                      dim,
+            const unsigned int                      degree);
+
     const Parameters                                  &parameters;
     Ledger                                            &ledger;
-    const TrilinosWrappers::SparseMatrix              *matrix = nullptr;
+    const TrilinosWrappers::SparseMatrix              *matrix   = nullptr;
+    bool                                               is_ready = false;
     std::unique_ptr<TrilinosWrappers::PreconditionAMG> amg;
     std::unique_ptr<SolverControl>                     direct_control;
     std::unique_ptr<TrilinosWrappers::SolverDirect>    direct;
