@@ -3,6 +3,7 @@
 
 #include <deal.II/distributed/solution_transfer.h>
 
+#include <boost/crc.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
 
@@ -18,7 +19,9 @@ namespace Signoton
 {
   namespace
   {
-    constexpr double format = 1;
+    constexpr double format = 2;
+
+    const std::string checksum = "checksum of ";
 
     bool
     is_root(const MPI_Comm &communicator)
@@ -52,6 +55,23 @@ namespace Signoton
       std::error_code error;
       std::filesystem::remove(trial, error);
       return ok;
+    }
+
+    double
+    checksum_of(const std::string &text)
+    {
+      boost::crc_32_type crc;
+      crc.process_bytes(text.data(), text.size());
+      return crc.checksum();
+    }
+
+    /** The contents of a file, empty if there is none. */
+    std::string
+    contents(const std::string &file_name)
+    {
+      std::ostringstream text;
+      text << std::ifstream(file_name, std::ios::binary).rdbuf();
+      return text.str();
     }
 
     void
@@ -118,21 +138,39 @@ namespace Signoton
   void
   Checkpoint<dim>::read_numbers()
   {
+    std::string damaged;
     if (is_root(model.communicator))
       {
-        std::ifstream file(directory + "/numbers");
-        double        value = 0.;
-        std::string   name;
-        while (file >> value && std::getline(file >> std::ws, name))
+        // the last line is the checksum of the others
+        const std::string  text = contents(directory + "/numbers");
+        std::istringstream lines(text);
+        double             value = 0.;
+        std::string        name;
+        while (lines >> value && std::getline(lines >> std::ws, name))
           numbers[name] = value;
+        const auto sum = numbers.find(checksum + "numbers");
+        if (sum == numbers.end() ||
+            sum->second !=
+              checksum_of(
+                text.substr(0, text.rfind('\n', text.size() - 2) + 1)))
+          damaged = "numbers";
+        else
+          for (const auto &entry : names(checksum + "mesh"))
+            {
+              const std::string file = entry.substr(checksum.size());
+              if (number(entry) !=
+                  checksum_of(contents(directory + "/" + file)))
+                damaged = file;
+            }
       }
+    damaged = Utilities::MPI::broadcast(model.communicator, damaged);
     numbers = Utilities::MPI::broadcast(model.communicator, numbers);
-    if (numbers.empty())
+    if (!damaged.empty())
       throw UserError("checkpoint '" + directory + "'",
-                      "no readable file 'numbers'",
-                      "a directory with a complete checkpoint",
-                      "give the output directory of a run with 'Output / "
-                      "Checkpoint every' above 0");
+                      "file '" + damaged + "' is missing or damaged",
+                      "a complete checkpoint, as a run with 'Output / "
+                      "Checkpoint every' above 0 writes it",
+                      "use an older checkpoint or start anew");
   }
 
   template <int dim>
@@ -187,10 +225,16 @@ namespace Signoton
     for (const auto &[name, value] : identity(model))
       set(name, value);
     set("active cells", model.space->mesh.n_global_active_cells());
+    if (is_root(model.communicator))
+      for (const auto &entry : fs::directory_iterator(unfinished))
+        set(checksum + entry.path().filename().string(),
+            checksum_of(contents(entry.path().string())));
     std::ostringstream text;
     text.precision(std::numeric_limits<double>::max_digits10);
     for (const auto &[name, value] : numbers)
       text << value << ' ' << name << '\n';
+    const double sum = checksum_of(text.str());
+    text << sum << ' ' << checksum << "numbers\n";
     write_file(model.communicator, unfinished + "/numbers", text.str());
     if (is_root(model.communicator))
       {

@@ -33,6 +33,26 @@ namespace Signoton
         text << std::fixed << std::setprecision(1) << seconds / 3600. << " h";
       return text.str();
     }
+
+    /** Remove what an earlier run has left: a later --resume must not mix two
+     *  runs. */
+    void
+    remove_results(const std::string &directory)
+    {
+      namespace fs = std::filesystem;
+      std::error_code       error;
+      std::vector<fs::path> old;
+      for (const auto &entry : fs::directory_iterator(directory, error))
+        {
+          const std::string name = entry.path().filename().string();
+          if (name == "statistics.csv" || name == "ledger.json" ||
+              name == "checkpoint" || name.rfind("checkpoint.", 0) == 0 ||
+              name == "fields.pvd" || name.rfind("fields-", 0) == 0)
+            old.push_back(entry.path());
+        }
+      for (const auto &path : old)
+        fs::remove_all(path, error);
+    }
   } // namespace
 
   template <int dim>
@@ -64,7 +84,7 @@ namespace Signoton
         resolved << model.resolved_scene << std::flush;
         problem = resolved ? 0 : 1;
         if (!resumed)
-          std::filesystem::remove(directory + "/statistics.csv", error);
+          remove_results(directory);
       }
     if (Utilities::MPI::max(problem, model.communicator) > 0)
       throw UserError("output directory '" + directory + "'",

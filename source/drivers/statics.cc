@@ -62,7 +62,7 @@ namespace Signoton
       weakest = std::min(weakest, material.binder_ratio());
     if (!(weakest < 0.1))
       return result;
-    u = guess;
+    u                           = guess;
     const double weakest_of_all = 1e-8; // there may be no binder at all
     for (double ratio = 0.1; true; ratio *= 0.1)
       {

@@ -51,7 +51,7 @@ main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   output.open("output");
-  for (const char *old : {"results", "good", "no_room", "file"})
+  for (const char *old : {"results", "good", "no_room", "file", "damaged"})
     fs::remove_all(old);
 
   Options options;
@@ -63,12 +63,16 @@ main(int argc, char **argv)
   options.output_directory = "file/results";
   run("the output directory cannot be made", options);
 
-  // a device that is always full
-  fs::create_directories("results");
-  fs::create_symlink("/dev/full", "results/fields-0001.vtu");
+  // no file may become larger than it takes for all but fields
+  rlimit unlimited;
+  getrlimit(RLIMIT_FSIZE, &unlimited);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{9000, unlimited.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
   options.output_directory = "results";
   options.overrides.emplace_back("Output/Fields every=1");
   run("the disk is full when fields are written", options);
+  setrlimit(RLIMIT_FSIZE, &unlimited);
   count_lines("results/statistics.csv");
 
   options.output_directory = "good";
@@ -76,9 +80,6 @@ main(int argc, char **argv)
   run("a run with a checkpoint", options);
 
   // no file may become larger than it takes for all but the checkpoint
-  rlimit unlimited;
-  getrlimit(RLIMIT_FSIZE, &unlimited);
-  std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limited{100000, unlimited.rlim_max};
   setrlimit(RLIMIT_FSIZE, &limited);
   options.overrides        = {"Load steps/Step size=0.5",
@@ -99,8 +100,30 @@ main(int argc, char **argv)
   options.resume_directory = "nowhere/checkpoint";
   run("a checkpoint that is not there", options);
 
+  // every file in turn, cut short and gone
+  options.resume_directory = "damaged";
+  for (const char *name : {"numbers", "mesh", "mesh.info", "mesh_fixed.data"})
+    for (const bool gone : {false, true})
+      {
+        fs::remove_all("damaged");
+        fs::copy("good/checkpoint", "damaged");
+        const std::string file = std::string("damaged/") + name;
+        if (gone)
+          fs::remove(file);
+        else
+          fs::resize_file(file, fs::file_size(file) / 2);
+        run(std::string("a checkpoint with file ") + name +
+              (gone ? " gone" : " cut short"),
+            options);
+      }
+
+  // a new run leaves nothing of the old one that could be resumed
+  options                  = Options();
+  options.scene_file       = "good/resolved.prm";
+  options.output_directory = "good";
+  options.overrides        = {"Output/Checkpoint every=0"};
+  run("a new run into the same directory", options);
   options.resume_directory = "good/checkpoint";
-  std::ofstream("good/checkpoint/numbers") << "1 format\n";
-  run("a checkpoint that lost a part", options);
+  run("resuming it without a checkpoint", options);
   return 0;
 }
