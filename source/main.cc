@@ -56,8 +56,9 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
   Options
   parse(const std::vector<std::string> &arguments)
   {
-    Options    options;
-    const auto refuse = [](const std::string &found,
+    Options     options;
+    std::string action, resume;
+    const auto  refuse = [](const std::string &found,
                            const std::string &expected) {
       throw UserError("command line", found, expected, "'signoton --help'");
     };
@@ -69,32 +70,45 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
             refuse("'" + word + "' at the end", "a value after it");
           return arguments[++i];
         };
-        if (word == "--explain")
-          options.action = Options::Action::explain;
-        else if (word == "--validate")
-          options.action = Options::Action::validate;
+        const auto once = [&](const std::string &before,
+                              const std::string &value) {
+          if (!before.empty())
+            refuse("'" + word + "' besides '" + before + "'", "one of them");
+          return value;
+        };
+        if (word == "--explain" || word == "--validate")
+          action = once(action, word);
         else if (word == "--set")
           options.overrides.push_back(next());
         else if (word == "--output")
-          options.output_directory = next();
+          options.output_directory = once(options.output_directory, next());
         else if (word == "--resume")
-          {
-            const std::string directory = next();
-            options.scene_file          = directory + "/resolved.prm";
-            options.output_directory    = directory;
-            options.resume_directory    = directory + "/checkpoint";
-          }
+          resume = once(resume, next());
         else if (word.rfind("-", 0) == 0)
           refuse("unknown option '" + word + "'",
                  "one of --explain, --validate, --template, --resume, --set, "
                  "--output, --help, --version");
-        else if (!options.scene_file.empty())
-          refuse("a second scene '" + word + "'", "one scene file");
         else
-          options.scene_file = word;
+          options.scene_file = once(options.scene_file, word);
+      }
+    if (!resume.empty())
+      {
+        for (const std::string &other :
+             {options.scene_file, options.output_directory, action})
+          if (!other.empty())
+            refuse("'" + other + "' besides '--resume " + resume + "'",
+                   "the directory alone: the run goes on there, with the "
+                   "scene that it has kept");
+        options.scene_file       = resume + "/resolved.prm";
+        options.output_directory = resume;
+        options.resume_directory = resume + "/checkpoint";
       }
     if (options.scene_file.empty())
       refuse("no scene file", "signoton SCENE.prm");
+    if (action == "--explain")
+      options.action = Options::Action::explain;
+    else if (action == "--validate")
+      options.action = Options::Action::validate;
     return options;
   }
 } // namespace

@@ -5,12 +5,17 @@
 
 #include <muParser.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
 namespace Signoton
 {
   namespace
   {
-    /** muparser knows most of deal.II's functions; `if` and `rand` are what
-     *  FunctionParser adds. Only the error text is wanted here. */
+    /** Parse with the functions that FunctionParser adds to muparser's own.
+     *  Only the error text is wanted here: FunctionParser itself would print
+     *  it, on every rank, before it throws. */
     std::string
     error_in(const std::string &expression,
              const int          dim,
@@ -19,20 +24,27 @@ namespace Signoton
       mu::Parser                parser;
       std::array<double, 4>     values{{.5, .5, .5, .5}};
       const std::array<char, 3> names{{'x', 'y', 'z'}};
-      for (int d = 0; d < dim; ++d)
-        parser.DefineVar(std::string(1, names[d]), &values[d]);
-      parser.DefineVar("t", &values[3]);
-      for (const auto &[name, value] : constants)
-        parser.DefineConst(name, value);
-      parser.DefineFun("if", [](double c, double a, double b) {
+      const auto                one   = [](double) { return 1.; };
+      const auto                two   = [](double, double) { return 1.; };
+      const auto                three = [](double c, double a, double b) {
         return c != 0. ? a : b;
-      });
-      parser.DefineFun("floor", [](double a) { return std::floor(a); });
-      parser.DefineFun("ceil", [](double a) { return std::ceil(a); });
-      parser.DefineFun("pow",
-                       [](double a, double b) { return std::pow(a, b); });
+      };
       try
         {
+          for (int d = 0; d < dim; ++d)
+            parser.DefineVar(std::string(1, names[d]), &values[d]);
+          parser.DefineVar("t", &values[3]);
+          for (const auto &[name, value] : constants)
+            parser.DefineConst(name, value);
+          for (const char *name :
+               {"int", "ceil", "cot", "csc", "floor", "sec", "erf", "erfc"})
+            parser.DefineFun(name, one);
+          parser.DefineFun("pow", two);
+          parser.DefineFun("if", three);
+          parser.DefineFun("rand", []() { return 1.; });
+          parser.DefineFun("rand_seed", one);
+          parser.DefineOprt("|", two, 1);
+          parser.DefineOprt("&", two, 2);
           parser.SetExpr(expression);
           parser.Eval();
         }
@@ -41,6 +53,16 @@ namespace Signoton
           return error.GetMsg();
         }
       return "";
+    }
+
+    bool
+    is_name(const std::string &text)
+    {
+      return !text.empty() &&
+             std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
+             std::all_of(text.begin(), text.end(), [](const unsigned char c) {
+               return std::isalnum(c) != 0 || c == '_';
+             });
     }
   } // namespace
 
@@ -51,24 +73,32 @@ namespace Signoton
     for (const auto &item : Utilities::split_string_list(text, ','))
       {
         const auto equal  = item.find('=');
-        const auto refuse = [&]() {
+        const auto refuse = [&](const std::string &expected) {
           throw UserError(where,
                           "'" + item + "'",
-                          "assignments 'name = number', separated by commas",
+                          expected,
                           "for instance 'H = 10, q = 1e5'");
         };
-        if (equal == std::string::npos)
-          refuse();
+        const std::string name = Utilities::trim(item.substr(0, equal));
+        if (equal == std::string::npos || !is_name(name))
+          refuse("assignments 'name = number', separated by commas");
+        for (const char *variable : {"x", "y", "z", "t"})
+          if (name == variable)
+            refuse("a name other than those of the variables x, y, z, t");
+        double value = 0.;
         try
           {
-            constants[Utilities::trim(item.substr(0, equal))] =
-              Utilities::string_to_double(
-                Utilities::trim(item.substr(equal + 1)));
+            value = Utilities::string_to_double(
+              Utilities::trim(item.substr(equal + 1)));
           }
         catch (const ExceptionBase &)
           {
-            refuse();
+            refuse("a number after '='");
           }
+        if (!std::isfinite(value))
+          refuse("a finite number");
+        if (!constants.emplace(name, value).second)
+          refuse("each name once; pi is known already");
       }
     return constants;
   }

@@ -142,7 +142,7 @@ namespace Signoton
   SceneFile::read(const std::string &file_name)
   {
     std::ifstream file(file_name);
-    if (!file)
+    if (!file || std::filesystem::is_directory(file_name))
       throw UserError("file '" + file_name + "'",
                       "it cannot be opened",
                       "a readable parameter file (.prm)",
@@ -198,9 +198,14 @@ namespace Signoton
           }
         else if (word == "set" && rest.find('=') != std::string::npos)
           {
-            const auto equal = rest.find('=');
+            const auto        equal = rest.find('=');
+            const std::string key   = Utilities::trim(rest.substr(0, equal));
+            if (const Entry *before = scene.find(path, key))
+              complain("one value for each key; '" + key +
+                         "' has one in line " + std::to_string(before->line),
+                       "remove one of them");
             scene.entries.push_back({path,
-                                     Utilities::trim(rest.substr(0, equal)),
+                                     key,
                                      Utilities::trim(rest.substr(equal + 1)),
                                      first_of_line});
           }

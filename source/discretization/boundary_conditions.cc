@@ -64,7 +64,8 @@ namespace Signoton
       handler.add_parameter(std::string("Displacement ") + axis_names[d],
                             displacement_text[d],
                             "Prescribed component of the displacement in m, an "
-                            "expression in x, y, (z,) t; empty: free.");
+                            "expression in x, y, (z,) t; empty: free. Where "
+                            "boundaries meet, the first in the file holds.");
     handler.add_parameter("Traction",
                           traction_text,
                           "Force per area in Pa, one expression per direction "
@@ -133,6 +134,18 @@ namespace Signoton
                       "prescribed",
                       "a load only where the boundary can move",
                       "remove the load or free a component");
+    if (traction)
+      {
+        const auto parts = split_components(traction_text, dim, at);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (displacement[d] && parts[d] != "0")
+            throw UserError(at,
+                            "'" + parts[d] + "' in the direction of " +
+                              axis_names[d] +
+                              ", where the displacement is prescribed",
+                            "0 in that direction",
+                            "prescribe the traction or the displacement");
+      }
   }
 
   template <int dim>

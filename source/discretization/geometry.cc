@@ -2,6 +2,9 @@
 #include <signoton/discretization/geometry.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
@@ -79,6 +82,18 @@ namespace Signoton
              text.find_first_not_of("0123456789") == std::string::npos;
     }
 
+    /** An id written as a number; ids have up to nine digits here. */
+    unsigned int
+    parse_id(const std::string &text, const std::string &where)
+    {
+      if (text.size() > 9)
+        throw UserError(where,
+                        "'" + text + "'",
+                        "an id with at most nine digits",
+                        "see the ids in the mesh");
+      return std::stoul(text);
+    }
+
     /** The physical groups of codimension one in a .msh file. */
     BoundaryNames
     physical_names(const std::string &msh, const int dim)
@@ -102,6 +117,28 @@ namespace Signoton
               }
           }
       return names;
+    }
+
+    /** The center of a cell whose Jacobian is not positive at each vertex, or
+     *  nothing. */
+    template <int dim>
+    std::string
+    folded_cell(const Triangulation<dim> &mesh)
+    {
+      const FE_Nothing<dim> fe;
+      FEValues<dim>         values(fe, QTrapezoid<dim>(), update_jacobians);
+      for (const auto &cell : mesh.active_cell_iterators())
+        {
+          values.reinit(cell);
+          for (const auto q : values.quadrature_point_indices())
+            if (!(values.jacobian(q).determinant() > 0.))
+              {
+                std::ostringstream center;
+                center << cell->center();
+                return center.str();
+              }
+        }
+      return "";
     }
 
     /** Mesh a .geo file; returns the text of a .msh file, or an error behind
@@ -186,6 +223,11 @@ namespace Signoton
   void
   Geometry::generate(const SceneFile &file, Triangulation<dim> &mesh) const
   {
+    // the default arguments are those of the default generator
+    const std::string arguments =
+      file.has(section, "Generator") && !file.has(section, "Arguments") ?
+        "" :
+        this->arguments;
     try
       {
         GridGenerator::generate_from_name_and_arguments(mesh,
@@ -261,12 +303,15 @@ namespace Signoton
       }
     if (!mesh.all_reference_cells_are_hyper_cube())
       refuse("'" + path + "' with triangles or tetrahedra");
+    if (const std::string folded = folded_cell(mesh); !folded.empty())
+      refuse("'" + path + "' with a folded or inverted cell around " + folded);
     return physical_names(text, dim);
   }
 
   template <int dim>
   void
   Geometry::apply_names(const SceneFile    &file,
+                        const Constants    &constants,
                         Triangulation<dim> &mesh,
                         BoundaryNames      &names) const
   {
@@ -279,16 +324,21 @@ namespace Signoton
       {
         if (is_number(what))
           {
-            names[name] = std::stoul(what);
+            names[name] = parse_id(what, where);
+            if (used.count(names[name]) == 0)
+              throw UserError(where,
+                              "'" + name + ": " + what +
+                                "', an id that the boundary does not have",
+                              "one of the ids of the mesh",
+                              "leave it out, or select faces by a condition");
             continue;
           }
         types::boundary_id id = 100;
         while (used.count(id) > 0)
           ++id;
         used.insert(id);
-        const auto condition =
-          make_function<dim>({what}, parse_constants("", where), where);
-        unsigned int n_faces = 0;
+        const auto   condition = make_function<dim>({what}, constants, where);
+        unsigned int n_faces   = 0;
         for (const auto &cell : mesh.active_cell_iterators())
           for (const auto &face : cell->face_iterators())
             if (face->at_boundary() && condition->value(face->center()) != 0.)
@@ -305,7 +355,13 @@ namespace Signoton
                           "make the coarse mesh fine enough to resolve it");
         names[name] = id;
       }
-    for (const auto id : mesh.get_boundary_ids())
+    // A condition may have taken all faces of another part.
+    const auto left = mesh.get_boundary_ids();
+    for (auto entry = names.begin(); entry != names.end();)
+      entry = std::find(left.begin(), left.end(), entry->second) == left.end() ?
+                names.erase(entry) :
+                std::next(entry);
+    for (const auto id : left)
       if (std::none_of(names.begin(), names.end(), [id](const auto &entry) {
             return entry.second == id;
           }))
@@ -315,6 +371,7 @@ namespace Signoton
   template <int dim>
   void
   Geometry::apply_material_ids(const SceneFile    &file,
+                               const Constants    &constants,
                                Triangulation<dim> &mesh) const
   {
     const std::string where = file.where(section, "Material ids");
@@ -326,12 +383,12 @@ namespace Signoton
                           "'" + id + "'",
                           "a material id, a number from 0",
                           "'1: y > 0.5; 2: x > 0.5'");
-        const auto condition = make_function<dim>({condition_text},
-                                                  parse_constants("", where),
-                                                  where);
+        const auto material = parse_id(id, where);
+        const auto condition =
+          make_function<dim>({condition_text}, constants, where);
         for (const auto &cell : mesh.active_cell_iterators())
           if (condition->value(cell->center()) != 0.)
-            cell->set_material_id(std::stoul(id));
+            cell->set_material_id(material);
       }
   }
 
@@ -370,6 +427,14 @@ namespace Signoton
         for (unsigned int d = 1; d < dim; ++d)
           if (std::abs(shift[d]) > std::abs(shift[direction]))
             direction = d;
+        if (!(std::abs(shift[direction]) > 0.999 * shift.norm()) ||
+            first == second)
+          throw UserError(where,
+                          "'" + first + ": " + second +
+                            "', which do not face each other along an axis",
+                          "two boundaries that a shift in x, y or z maps onto "
+                          "each other",
+                          "'left: right'");
         pairs.push_back({names.at(first), names.at(second), direction});
       }
     return pairs;
@@ -378,9 +443,10 @@ namespace Signoton
   template <int dim>
   BoundaryParts
   Geometry::create(const SceneFile                           &file,
+                   const Constants                           &constants,
                    parallel::distributed::Triangulation<dim> &mesh) const
   {
-    if (file.has(section, "Mesh file") && file.has(section, "Generator"))
+    if (!mesh_file.empty() && file.has(section, "Generator"))
       throw UserError(file.where(section, "Mesh file"),
                       "both a mesh file and a generator",
                       "one of them",
@@ -402,8 +468,8 @@ namespace Signoton
       }
     else
       parts.names = read(file, mesh.get_communicator(), coarse);
-    apply_material_ids(file, coarse);
-    apply_names(file, coarse, parts.names);
+    apply_material_ids(file, constants, coarse);
+    apply_names(file, constants, coarse, parts.names);
     parts.periodic = find_periodic_pairs(file, coarse, parts.names);
     if (distortion > 0.)
       GridTools::distort_random(distortion, coarse, true);
@@ -412,9 +478,19 @@ namespace Signoton
     std::vector<GridTools::PeriodicFacePair<
       typename parallel::distributed::Triangulation<dim>::cell_iterator>>
       faces;
-    for (const auto &pair : parts.periodic)
-      GridTools::collect_periodic_faces(
-        mesh, pair.first, pair.second, pair.direction, faces);
+    try
+      {
+        for (const auto &pair : parts.periodic)
+          GridTools::collect_periodic_faces(
+            mesh, pair.first, pair.second, pair.direction, faces);
+      }
+    catch (const ExceptionBase &)
+      {
+        throw UserError(file.where(section, "Periodic boundaries"),
+                        "'" + periodic + "', whose faces do not match",
+                        "boundaries with the same faces, shifted",
+                        "compare the meshes of both boundaries");
+      }
     if (!faces.empty())
       mesh.add_periodicity(faces);
     mesh.refine_global(initial_refinement);
@@ -423,8 +499,10 @@ namespace Signoton
 
   template BoundaryParts
   Geometry::create<2>(const SceneFile &,
+                      const Constants &,
                       parallel::distributed::Triangulation<2> &) const;
   template BoundaryParts
   Geometry::create<3>(const SceneFile &,
+                      const Constants &,
                       parallel::distributed::Triangulation<3> &) const;
 } // namespace Signoton

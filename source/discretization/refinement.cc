@@ -54,6 +54,18 @@ namespace Signoton
     handler.leave_subsection();
   }
 
+  void
+  Refinement::check(const SceneFile &file) const
+  {
+    if (cycles_first + cycles_per_step > 0 && minimum_level > maximum_level)
+      throw UserError(file.where({"Refinement"}, "Maximum level"),
+                      std::to_string(maximum_level),
+                      "at least 'Minimum level', here " +
+                        std::to_string(minimum_level),
+                      "without 'Minimum level', it is 'Geometry / Initial "
+                      "refinement'");
+  }
+
   unsigned int
   Refinement::cycles(const unsigned int step) const
   {

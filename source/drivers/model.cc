@@ -43,8 +43,8 @@ namespace Signoton
     handler.add_parameter("Minimum step size",
                           minimum_step_size,
                           "A failed step is halved down to this size before "
-                          "the run gives up.",
-                          Patterns::Double(1e-300));
+                          "the run gives up; 0: a thousandth of 'Step size'.",
+                          Patterns::Double(0.));
     handler.add_parameter("Maximum step size",
                           maximum_step_size,
                           "Steps do not grow beyond this size.",
@@ -59,5 +59,29 @@ namespace Signoton
                           "regrows to the first size by at least 1.5.",
                           Patterns::Double(1., 10.));
     handler.leave_subsection();
+  }
+
+  void
+  LoadSteps::check(const SceneFile &file)
+  {
+    const auto refuse = [&](const std::string &key,
+                            const double       value,
+                            const std::string &expected) {
+      throw UserError(
+        file.where({"Load steps"}, key),
+        "'" + file.value({"Load steps"}, key, Utilities::to_string(value)) +
+          "'",
+        expected,
+        "pseudo-time grows from 'Start time' to 'End time' in "
+        "steps that begin with 'Step size'");
+    };
+    if (!(end > start))
+      refuse("End time", end, "a time after 'Start time'");
+    if (!(minimum_step_size > 0.))
+      minimum_step_size = 1e-3 * step_size;
+    if (minimum_step_size > step_size)
+      refuse("Minimum step size", minimum_step_size, "at most 'Step size'");
+    if (maximum_step_size < step_size)
+      refuse("Maximum step size", maximum_step_size, "at least 'Step size'");
   }
 } // namespace Signoton

@@ -71,6 +71,17 @@ namespace Signoton
                    model.gravity.get(),
                    space.mesh_constraints,
                    load_of_mesh);
+
+    double sum = load_of_mesh.l1_norm();
+    for (const auto &line : space.constraints.get_lines())
+      sum += std::abs(line.inhomogeneity);
+    if (!std::isfinite(Utilities::MPI::sum(sum, model.communicator)))
+      throw UserError(model.file.where({"Boundaries"}),
+                      "a load or displacement that is not a finite number",
+                      "expressions that are finite on the whole boundary at "
+                      "all times of the run",
+                      "look for divisions by zero and roots of negative "
+                      "numbers; the accepted steps are complete");
   }
 
   template <int dim>

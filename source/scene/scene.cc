@@ -2,6 +2,8 @@
 #include <signoton/scene/requirements.h>
 #include <signoton/scene/scene.h>
 
+#include <deal.II/base/mpi_remote_point_evaluation.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -125,14 +127,10 @@ namespace Signoton
       model.reference =
         vector_function(reference_text,
                         file.where({"Reference solution"}, "Displacement"));
-    if (!(model.load_steps.end > model.load_steps.start))
-      throw UserError(file.where({"Load steps"}, "End time"),
-                      "'" + file.value({"Load steps"}, "End time", "1") + "'",
-                      "a time after 'Start time'",
-                      "pseudo-time grows from Start time to End time");
-
+    model.load_steps.check(file);
     if (!file.has({"Refinement"}, "Minimum level"))
       model.refinement.set_minimum_level(model.geometry.initial_refinement);
+    model.refinement.check(file);
 
     const std::string probes_at = file.where({"Output"}, "Probe points");
     for (const auto &point :
@@ -144,10 +142,19 @@ namespace Signoton
                           "'" + point + "'",
                           std::to_string(dim) + " coordinates of each point",
                           "separate coordinates by ',' and points by ';'");
-        const auto values = Utilities::string_to_double(coordinates);
         Point<dim> p;
-        for (unsigned int d = 0; d < dim; ++d)
-          p[d] = values[d];
+        try
+          {
+            for (unsigned int d = 0; d < dim; ++d)
+              p[d] = Utilities::string_to_double(coordinates[d]);
+          }
+        catch (const ExceptionBase &)
+          {
+            throw UserError(probes_at,
+                            "'" + point + "'",
+                            "numbers",
+                            "coordinates of probes are no expressions");
+          }
         model.probes.push_back(p);
       }
 
@@ -215,16 +222,62 @@ namespace Signoton
 
   template <int dim>
   void
+  Scene<dim>::check_mesh() const
+  {
+    const auto &space = *model.space;
+    if (space.axisymmetric)
+      {
+        double lowest = 0., size = 0.;
+        for (const auto &vertex : space.mesh.get_vertices())
+          {
+            lowest = std::min(lowest, vertex[0]);
+            size   = std::max(size, vertex.norm());
+          }
+        if (Utilities::MPI::min(lowest, model.communicator) < -1e-10 * size)
+          throw UserError(model.file.where({}, "Embedding"),
+                          "a mesh that reaches to x = " +
+                            Utilities::to_string(lowest),
+                          "x >= 0: x is the distance from the axis",
+                          "shift the mesh, or model one half of it");
+      }
+    Utilities::MPI::RemotePointEvaluation<dim> search;
+    search.reinit(model.probes, space.mesh, space.mapping);
+    for (unsigned int i = 0; i < model.probes.size(); ++i)
+      if (!search.point_found(i))
+        {
+          std::ostringstream point;
+          point << model.probes[i];
+          throw UserError(model.file.where({"Output"}, "Probe points"),
+                          "point " + point.str() + ", which is not in the body",
+                          "points of the body",
+                          "on curved boundaries of the mesh, stay a little "
+                          "inside");
+        }
+    std::map<types::boundary_id, std::string> first;
+    for (const auto &condition : model.conditions)
+      if (const auto [other, is_first] =
+            first.emplace(condition.id, condition.name);
+          !is_first)
+        throw UserError(model.file.where({"Boundaries", condition.name}),
+                        "a second name for the boundary '" + other->second +
+                          "'",
+                        "the conditions of a boundary in one subsection",
+                        "see 'Geometry / Boundary names'");
+  }
+
+  template <int dim>
+  void
   Scene<dim>::build()
   {
     auto &space = *model.space;
     {
       const auto timer = model.ledger.time("setup");
-      space.boundary   = model.geometry.create(model.file, space.mesh);
+      space.boundary = model.geometry.create(model.file, constants, space.mesh);
     }
     check_materials();
     for (auto &condition : model.conditions)
       condition.initialize(model.file, space.boundary.names, constants);
+    check_mesh();
     model.mechanics = make_mechanics(space, model.materials);
 
     const auto timer = model.ledger.time("setup");
@@ -249,8 +302,27 @@ namespace Signoton
     file.set({"Materials", "sand"}, "Shear modulus", "6e7");
     file.set({"Materials", "sand"}, "Binder", "proportional");
     file.set({"Boundaries", "bottom"}, "Symmetry", "true");
+    file.set({"Boundaries", "left"}, "Symmetry", "true");
+    file.set({"Boundaries", "top"}, "Pressure", "1e5*t");
     Scene scene(MPI_COMM_SELF, file);
-    scene.handler.print_parameters(out, ParameterHandler::PRM);
+    // Not every key goes with every rheology: all are shown, some are set.
+    const SceneFile::Path    material = {"Materials", "sand"};
+    std::vector<std::string> section;
+    std::stringstream        text;
+    scene.handler.print_parameters(text, ParameterHandler::PRM);
+    for (std::string line; std::getline(text, line);)
+      {
+        const std::string content = Utilities::trim(line);
+        if (content.rfind("subsection ", 0) == 0)
+          section.push_back(content.substr(11));
+        else if (content == "end")
+          section.pop_back();
+        const bool idle =
+          content.rfind("set ", 0) == 0 && section == material &&
+          !file.has(material,
+                    Utilities::trim(content.substr(4, content.find('=') - 4)));
+        out << (idle ? "    # " + content : line) << "\n";
+      }
   }
 
   namespace

@@ -107,7 +107,7 @@ namespace Signoton
     double     energy = problem.evaluate(x, gradient, true);
     double     scale  = problem.force_scale(x);
     double     norm = gradient.l2_norm(), previous_norm = norm;
-    result.history.push_back({scale > 0. ? norm / scale : 0.});
+    result.history.push_back({norm > 0. ? norm / scale : norm});
     for (unsigned int iteration = 0;; ++iteration)
       {
         if (!std::isfinite(norm))

@@ -30,13 +30,20 @@ expect 0 'set Rheology' --template statics
 expect 2 'statics' --template statistics
 expect 2 'no scene file'
 expect 2 "unknown option '--explian'" --explian "$scene"
-expect 2 'a second scene' "$scene" "$scene"
+expect 2 'one of them' "$scene" "$scene"
+expect 2 'one of them' --explain --validate "$scene"
+expect 2 'the directory alone' "$scene" --resume here
+expect 2 'the directory alone' --resume here --output there
+expect 2 'cannot be opened' "$source/prm"
 expect 2 "'--set' at the end" "$scene" --set
 expect 2 'absent.prm' absent.prm
 expect 2 "unknown key 'Degre'" "$scene" --set 'Discretization/Degre=1'
 expect 2 'Discretization / Degree' "$scene" --set 'Discretization/Degree=7'
 expect 2 '--set' "$scene" --set 'Discretization/Degree'
 expect 2 'absent/resolved.prm' --resume absent
+"$signoton" --template statics >template.prm
+expect 0 'The scene is valid' --validate template.prm
+expect 0 'Statistics by step' template.prm
 expect 0 'The scene is valid' --validate "$scene" --set 'Discretization/Degree=1'
 expect 2 'Materials' --validate "$scene" --set 'Materials/sand/Bulk modulus=-1'
 

@@ -1,6 +1,7 @@
 #ifndef signoton_discretization_geometry_h
 #define signoton_discretization_geometry_h
 
+#include <signoton/base/function.h>
 #include <signoton/base/scene_file.h>
 
 #include <deal.II/base/types.h>
@@ -44,10 +45,12 @@ namespace Signoton
     /**
      * Create the mesh, identically on every rank.
      * @param file the scene, to resolve file names and to place complaints
+     * @param constants for the expressions that select faces and cells
      */
     template <int dim>
     BoundaryParts
     create(const SceneFile                           &file,
+           const Constants                           &constants,
            parallel::distributed::Triangulation<dim> &mesh) const;
 
     unsigned int initial_refinement = 0;
@@ -66,6 +69,7 @@ namespace Signoton
     template <int dim>
     void
     apply_names(const SceneFile    &file,
+                const Constants    &constants,
                 Triangulation<dim> &mesh,
                 BoundaryNames      &names) const;
 
@@ -77,7 +81,9 @@ namespace Signoton
 
     template <int dim>
     void
-    apply_material_ids(const SceneFile &file, Triangulation<dim> &mesh) const;
+    apply_material_ids(const SceneFile    &file,
+                       const Constants    &constants,
+                       Triangulation<dim> &mesh) const;
 
     std::string generator      = "hyper_cube";
     std::string arguments      = "0 : 1 : true";

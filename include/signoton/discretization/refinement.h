@@ -32,6 +32,10 @@ namespace Signoton
       return cycles_per_step > 0;
     }
 
+    /** Check the entries against each other. */
+    void
+    check(const SceneFile &file) const;
+
     /** The coarsest level, unless the scene sets it. */
     void
     set_minimum_level(const unsigned int level)

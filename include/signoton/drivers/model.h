@@ -27,10 +27,15 @@ namespace Signoton
     void
     add_parameters(ParameterHandler &handler);
 
+    /** Check the entries against each other, and set what follows from
+     *  others. */
+    void
+    check(const SceneFile &file);
+
     double       start             = 0.;
     double       end               = 1.;
     double       step_size         = 1.;
-    double       minimum_step_size = 1e-4;
+    double       minimum_step_size = 0.;
     double       maximum_step_size = 1e300;
     unsigned int easy_iterations   = 8;
     double       growth            = 1.;

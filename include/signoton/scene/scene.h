@@ -57,6 +57,8 @@ namespace Signoton
 
     void
     check_materials() const;
+    void
+    check_mesh() const;
 
     void
     check_supports() const;
