@@ -10,6 +10,7 @@
 #include <boost/serialization/string.hpp>
 
 #include <iomanip>
+#include <regex>
 #include <sstream>
 
 namespace Signoton
@@ -128,6 +129,11 @@ namespace Signoton
       put("bytes", what, amount);
     std::ostringstream text;
     boost::property_tree::write_json(text, tree);
-    write_file(communicator, file_name, text.str());
+    // property trees know strings only
+    write_file(communicator,
+               file_name,
+               std::regex_replace(text.str(),
+                                  std::regex(": \"([^\"]*)\""),
+                                  ": $1"));
   }
 } // namespace Signoton

@@ -414,7 +414,9 @@ namespace Signoton
         if (!fits)
           throw UserError(place(entry),
                           "'" + entry.value + "'",
-                          leaf->get<std::string>("pattern_description"),
+                          Patterns::pattern_factory(
+                            leaf->get<std::string>("pattern_description"))
+                            ->description(Patterns::PatternBase::Text),
                           leaf->get<std::string>("documentation", ""));
       }
   }

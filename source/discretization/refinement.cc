@@ -81,27 +81,30 @@ namespace Signoton
     class FaceTraction
     {
     public:
-      explicit FaceTraction(const VectorType &stress)
-        : stress(stress)
+      FaceTraction(const VectorType  &stress,
+                   const unsigned int n_components,
+                   const unsigned int n_points)
+        : values(n_points)
+        , stress(stress)
+        , raw(n_points, Vector<double>(n_components))
       {}
 
-      std::vector<Tensor<1, dim>>
-      operator()(const FEFaceValuesBase<dim>       &values,
-                 const std::vector<Tensor<1, dim>> &normals)
+      const std::vector<Tensor<1, dim>> &
+      evaluate(const FEFaceValuesBase<dim>       &face,
+               const std::vector<Tensor<1, dim>> &normals)
       {
-        const unsigned int n = values.n_quadrature_points;
-        raw.assign(n, Vector<double>(values.get_fe().n_components()));
-        values.get_function_values(stress, raw);
-        std::vector<Tensor<1, dim>> traction(n);
-        for (unsigned int q = 0; q < n; ++q)
+        face.get_function_values(stress, raw);
+        for (unsigned int q = 0; q < values.size(); ++q)
           {
             SymmetricTensor<2, dim> sigma;
             for (unsigned int c = 0; c < raw[q].size(); ++c)
               sigma.access_raw_entry(c) = raw[q][c];
-            traction[q] = sigma * normals[q];
+            values[q] = sigma * normals[q];
           }
-        return traction;
+        return values;
       }
+
+      std::vector<Tensor<1, dim>> values;
 
     private:
       const VectorType           &stress;
@@ -139,11 +142,11 @@ namespace Signoton
   template <int dim>
   Vector<float>
   Refinement::traction_jumps(
-    const Space<dim>                           &space,
-    const PointSpace<dim>                      &points,
-    const VectorType                           &stress,
-    const BoundaryConditions<dim>              &conditions,
-    const std::map<types::material_id, double> &shear_modulus)
+    const Space<dim>                                             &space,
+    const PointSpace<dim>                                        &points,
+    const VectorType                                             &stress,
+    const BoundaryConditions<dim>                                &conditions,
+    const boost::container::flat_map<types::material_id, double> &shear_modulus)
   {
     const QGauss<dim - 1> quadrature(space.degree + 1);
     const auto            flags = update_values | update_quadrature_points |
@@ -158,8 +161,11 @@ namespace Signoton
                                     points.fe,
                                     quadrature,
                                     update_values);
-    FaceTraction<dim>    traction(stress);
-    std::map<types::boundary_id, const BoundaryCondition<dim> *> by_id;
+    FaceTraction<dim>    mine(stress, points.n_components, quadrature.size());
+    FaceTraction<dim>    other(stress, points.n_components, quadrature.size());
+    boost::container::flat_map<types::boundary_id,
+                               const BoundaryCondition<dim> *>
+      by_id;
     for (const auto &condition : conditions)
       by_id[condition.id] = &condition;
 
@@ -188,12 +194,12 @@ namespace Signoton
                   if (cell->has_periodic_neighbor(f))
                     continue;
                   here.reinit(cell, f);
-                  auto       mine  = traction(here, here.get_normal_vectors());
+                  mine.evaluate(here, here.get_normal_vectors());
                   const auto found = by_id.find(cell->face(f)->boundary_id());
                   subtract_given(found == by_id.end() ? nullptr : found->second,
                                  here,
-                                 mine);
-                  sum += 0.5 * h * square(here, mine, none);
+                                 mine.values);
+                  sum += 0.5 * h * square(here, mine.values, none);
                 }
               else if (cell->face(f)->has_children())
                 for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
@@ -204,26 +210,30 @@ namespace Signoton
                     const auto &n = here_part.get_normal_vectors();
                     sum += 0.25 * h *
                            square(here_part,
-                                  traction(here_part, n),
-                                  traction(there, n));
+                                  mine.evaluate(here_part, n),
+                                  other.evaluate(there, n));
                   }
               else
                 {
                   here.reinit(cell, f);
-                  const auto &n        = here.get_normal_vectors();
-                  const auto  mine     = traction(here, n);
-                  const auto  neighbor = cell->neighbor(f);
+                  const auto &n = here.get_normal_vectors();
+                  mine.evaluate(here, n);
+                  const auto neighbor = cell->neighbor(f);
                   if (cell->neighbor_is_coarser(f))
                     {
                       const auto where = cell->neighbor_of_coarser_neighbor(f);
                       there_part.reinit(neighbor, where.first, where.second);
-                      sum +=
-                        0.25 * h * square(here, mine, traction(there_part, n));
+                      sum += 0.25 * h *
+                             square(here,
+                                    mine.values,
+                                    other.evaluate(there_part, n));
                     }
                   else
                     {
                       there.reinit(neighbor, cell->neighbor_of_neighbor(f));
-                      sum += 0.25 * h * square(here, mine, traction(there, n));
+                      sum +=
+                        0.25 * h *
+                        square(here, mine.values, other.evaluate(there, n));
                     }
                 }
             }
@@ -368,7 +378,7 @@ namespace Signoton
     const PointSpace<dim> &,                                             \
     const VectorType &,                                                  \
     const BoundaryConditions<dim> &,                                     \
-    const std::map<types::material_id, double> &);                       \
+    const boost::container::flat_map<types::material_id, double> &);     \
   template bool Refinement::mark<dim>(Space<dim> &,                      \
                                       Vector<float> &,                   \
                                       const std::vector<unsigned int> &, \

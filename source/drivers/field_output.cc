@@ -84,6 +84,13 @@ namespace Signoton
       add("plastic_shear", [&](const auto &a) {
         return 2. * shear_intensity(dealii::deviator(tensor(a.plastic_strain)));
       });
+    if (model.materials.size() > 1)
+      {
+        cell_data.emplace_back("material_id", Vector<float>(averages.size()));
+        for (const auto &cell : model.space->mesh.active_cell_iterators())
+          cell_data.back().second[cell->active_cell_index()] =
+            cell->material_id();
+      }
     for (const auto &[name, values] : cell_data)
       output.add_data_vector(values, name, DataOut<dim>::type_cell_data);
     output.build_patches(model.space->mapping,

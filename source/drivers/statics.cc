@@ -92,7 +92,7 @@ namespace Signoton
       VectorType            stress = points.make_relevant_vector();
       model.mechanics->stress_field(trial, points, stress);
       stress.update_ghost_values();
-      std::map<types::material_id, double> shear_modulus;
+      boost::container::flat_map<types::material_id, double> shear_modulus;
       for (const auto &material : model.materials)
         shear_modulus[material.id] = material.elasticity().shear;
       Vector<float> indicators = Refinement::traction_jumps(

@@ -2,7 +2,7 @@
 
 #include <deal.II/fe/fe_values.h>
 
-#include <map>
+#include <boost/container/flat_map.hpp>
 
 namespace Signoton
 {
@@ -53,11 +53,13 @@ namespace Signoton
                                   space.fe,
                                   QGauss<dim - 1>(space.degree + 2),
                                   flags | update_normal_vectors);
-    std::map<types::boundary_id, const BoundaryCondition<dim> *> loaded;
+    boost::container::flat_map<types::boundary_id,
+                               const BoundaryCondition<dim> *>
+      loaded;
     for (const auto &condition : conditions)
       if (condition.traction || condition.pressure)
         loaded[condition.id] = &condition;
-    std::map<types::material_id, double> density;
+    boost::container::flat_map<types::material_id, double> density;
     for (const auto &material : materials)
       density[material.id] = material.density;
 

@@ -143,16 +143,19 @@ namespace Signoton
     const PointSpace<dim> &points,
     VectorType            &field)
   {
-    std::vector<types::global_dof_index> dofs(points.fe.n_dofs_per_cell());
+    std::vector<std::vector<types::global_dof_index>> dofs(
+      Number::size(),
+      std::vector<types::global_dof_index>(points.fe.n_dofs_per_cell()));
     visit_points(displacement, [&](const Point &point) {
       const auto stress = to_mesh<dim>(point.response.stress);
       for (unsigned int i = 0;
            i < data.n_active_entries_per_cell_batch(point.batch);
            ++i)
         {
-          point_dofs(points, point.batch, i, dofs);
+          if (point.q == 0)
+            point_dofs(points, point.batch, i, dofs[i]);
           for (unsigned int c = 0; c < points.n_components; ++c)
-            field[dofs[points.cell_index(c, point.q)]] =
+            field[dofs[i][points.cell_index(c, point.q)]] =
               stress.access_raw_entry(c)[i];
         }
     });

@@ -115,10 +115,26 @@ namespace Signoton
     const double n      = model.space->dof_handler.n_dofs();
     // a row couples with the unknowns of the patch around a node, on average
     const double row = dim * std::pow(model.space->degree == 1 ? 3. : 4., dim);
+    const auto   forecast = [&](const std::string &when, const double growth) {
+      const double matrix = 12. * growth * n * row;
+      // Multigrid takes about the matrix again; factors fill up like n log n in
+      // the plane, and more than anyone should wait for in space.
+      const double solver = model.linear_solver.is_direct(growth * n, dim) ?
+                                matrix * std::log2(growth * n) :
+                                1.5 * matrix;
+      out << "  " << std::left << std::setw(20) << when << std::right
+          << std::fixed << std::setprecision(1) << std::setw(10)
+          << growth * points * bytes / 1e6 << std::setw(10) << matrix / 1e6
+          << std::setw(10) << solver / 1e6 << std::setw(10)
+          << 30. * 8. * growth * n / 1e6 << "\n";
+    };
     out << "\nUnknowns " << n << ", cells " << cells << ", points " << points
-        << "\nMemory forecast: points " << points * bytes / 1e6
-        << " MB, matrix " << 12. * n * row / 1e6 << " MB, vectors "
-        << 20. * 8. * n / 1e6 << " MB\n";
+        << "\nMemory forecast in MB, besides some 200 MB of libraries a rank:\n"
+           "                          points    matrix    solver   vectors\n";
+    forecast("at the start", 1.);
+    if (model.refinement.cycles(1) > 0 || model.refinement.is_used_later())
+      forecast("at Maximum unknowns",
+               std::max(1., model.refinement.unknowns_limit() / n));
     return out.str();
   }
 

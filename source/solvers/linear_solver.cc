@@ -46,6 +46,15 @@ namespace Signoton
     handler.leave_subsection();
   }
 
+  bool
+  LinearSolver::Parameters::is_direct(const double       n_unknowns,
+                                      const unsigned int dim) const
+  {
+    return method == "direct" ||
+           (method == "auto" &&
+            n_unknowns <= (dim == 2 ? direct_limit_2d : direct_limit_3d));
+  }
+
   void
   LinearSolver::initialize(
     const TrilinosWrappers::SparseMatrix   &new_matrix,
@@ -72,10 +81,7 @@ namespace Signoton
                         const unsigned int                      dim,
                         const unsigned int                      degree)
   {
-    if (parameters.method == "direct" ||
-        (parameters.method == "auto" &&
-         matrix->m() <= (dim == 2 ? parameters.direct_limit_2d :
-                                    parameters.direct_limit_3d)))
+    if (parameters.is_direct(matrix->m(), dim))
       {
         // KLU is the faster one up to about 10,000 unknowns in the plane;
         // beyond, MUMPS has less fill-in and uses all ranks

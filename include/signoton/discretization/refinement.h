@@ -3,6 +3,8 @@
 
 #include <signoton/discretization/space.h>
 
+#include <boost/container/flat_map.hpp>
+
 namespace Signoton
 {
   /**
@@ -36,6 +38,13 @@ namespace Signoton
     void
     check(const SceneFile &file) const;
 
+    /** Unknowns that refinement does not go beyond, about. */
+    double
+    unknowns_limit() const
+    {
+      return maximum_unknowns;
+    }
+
     /** The coarsest level, unless the scene sets it. */
     void
     set_minimum_level(const unsigned int level)
@@ -48,11 +57,12 @@ namespace Signoton
      *  @param shear_modulus by material id, in Pa */
     template <int dim>
     static Vector<float>
-    traction_jumps(const Space<dim>                           &space,
-                   const PointSpace<dim>                      &points,
-                   const VectorType                           &stress,
-                   const BoundaryConditions<dim>              &conditions,
-                   const std::map<types::material_id, double> &shear_modulus);
+    traction_jumps(const Space<dim>              &space,
+                   const PointSpace<dim>         &points,
+                   const VectorType              &stress,
+                   const BoundaryConditions<dim> &conditions,
+                   const boost::container::flat_map<types::material_id, double>
+                     &shear_modulus);
 
     /**
      * Set refinement and coarsening flags.

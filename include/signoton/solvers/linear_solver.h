@@ -41,6 +41,10 @@ namespace Signoton
       void
       add_parameters(ParameterHandler &handler);
 
+      /** Whether a system of so many unknowns is factorized. */
+      bool
+      is_direct(const double n_unknowns, const unsigned int dim) const;
+
       std::string  method                = "auto";
       unsigned int direct_limit_2d       = 100000;
       unsigned int direct_limit_3d       = 5000;
