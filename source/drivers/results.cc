@@ -249,6 +249,9 @@ namespace Signoton
       {"linear iterations of all solves", linear_iterations},
       {"most linear iterations", most_linear},
       {"residual", newton.history.back().residual},
+      {"residual one iteration before",
+       newton.history[newton.iterations() > 0 ? newton.iterations() - 1 : 0]
+         .residual},
       {"tangent regularization", newton.regularization},
       {"stored energy", record.balance.stored},
       {"dissipated energy", dissipation},

@@ -15,7 +15,7 @@
  * Counting iterations: a scene is run for binders from strong to nearly none,
  * the counts go to a table on the screen, and the verdict is whether each
  * solve, on each mesh of each step, took at most 15 Newton iterations with at
- * most 80 linear ones in each.
+ * most 80 linear ones in each, and each step ended superlinearly.
  */
 namespace NewtonCounts
 {
@@ -61,6 +61,12 @@ namespace NewtonCounts
               linear   = std::max(linear, value("most linear iterations"));
               inside   = std::min(inside, value("share of interior"));
               unknowns = value("unknowns");
+              // ends faster than linearly: order 1.5 and more, down to the
+              // tenth of the tolerance that the linear solver is asked for
+              ok &=
+                value("residual") <=
+                std::max(std::pow(value("residual one iteration before"), 1.5),
+                         1e-11);
             }
           table.add_value("unknowns", static_cast<unsigned int>(unknowns));
           table.add_value("lambda", ratio);

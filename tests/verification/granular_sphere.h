@@ -15,7 +15,7 @@ namespace Verification
   {
     const double k = 1., mu = 0.6, b = 2.;
     const double n = 2. * m_f / m_r, g = (1. - n / 2.) / (1. + n);
-    const auto   outer = [&](const double c) {
+    const auto   outer = [=](const double c) {
       return 1. + 2. * g * c * c * c / (b * b * b);
     };
     const double c = root(
@@ -25,6 +25,9 @@ namespace Verification
       1.,
       b);
     const double A = -1. / outer(c), B = -A * g * c * c * c;
+    const auto   outer_displacement = [=](const double r) {
+      return (-b / (3. * k) + g * r * r * r / (2. * mu * b * b)) / outer(r);
+    };
     const double pressure = (m_r + 2. * m_f) / 3.;
     const double shear    = (m_r - m_f) / std::sqrt(3.);
     const double D1 = -q_a * (pressure * pressure / k + shear * shear / mu) /
@@ -44,7 +47,13 @@ namespace Verification
              {"A", A},
              {"B", B},
              {"B1", B1},
-             {"D1", D1}}};
+             {"D1", D1}},
+            [=](const double u) {
+              return root(
+                [&](const double r) { return outer_displacement(r) - u; },
+                1.,
+                b);
+            }};
   }
 
   /** Hold a formula against a number known otherwise. */

@@ -18,7 +18,10 @@ namespace
       (-(1. + nu) * (1. - 2. * nu) * a * p + (1. - nu * nu) * Y * c * c / a) /
       E;
     const double u_b = (1. - nu * nu) * Y * c * c / (E * b);
-    return {a, b, u_a, u_b, c, {{"p", p}, {"c", c}, {"nu", nu}}};
+    return {
+      a, b, u_a, u_b, c, {{"p", p}, {"c", c}, {"nu", nu}}, [=](const double u) {
+        return std::sqrt(u * E * b / ((1. - nu * nu) * Y));
+      }};
   }
 } // namespace
 

@@ -34,7 +34,9 @@ main(int argc, char **argv)
                                            RadialStudy().expected_order;
         study(report,
               "von Mises, c = " + std::to_string(c),
-              {a, b, u_a, u_b, c, {{"p", p}, {"c", c}}});
+              {a, b, u_a, u_b, c, {{"p", p}, {"c", c}}, [=](const double u) {
+                 return std::cbrt(u * E * b * b / ((1. - nu) * Y));
+               }});
       }
   });
 }
