@@ -61,7 +61,11 @@ main(int argc, char **argv)
                      std::min(0.0625 * std::pow(2., i), 0.25)) < 1e-12;
   verdict("easy steps grow up to the largest", good);
 
-  for (const auto &other : {cut, easy})
+  // the loads are functions of t: a late start is one large first step
+  const auto late = run({"Load steps/Start time=0.25"});
+  verdict("a late start", late.size() == 2);
+
+  for (const auto &other : {cut, easy, late})
     {
       good = !whole.empty() && !other.empty();
       for (const char *name : {"stored energy",
