@@ -113,10 +113,10 @@ namespace Signoton::Rheology
       Scheme::Kind              kind;
       std::vector<unsigned int> parts;
       Moduli                    moduli; ///< as in Scheme
-      Moduli
-          stiffness; ///< in this time step; the metric of contacts and hinges
-      int memory    = -1; ///< which remembered strain, or none
-      int hardening = -1; ///< which remembered scalar, or none
+      /** In this time step; the metric of contacts and hinges. */
+      Moduli stiffness;
+      /** Which remembered strain and scalar, or none. */
+      int     memory = -1, hardening = -1;
       Vector6 strain, stress;
       Vector6 offset; ///< stress at zero strain
     };
