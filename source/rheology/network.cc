@@ -186,8 +186,8 @@ namespace Signoton::Rheology
           }
       }
     for (Leaf &leaf : leaves)
-      leaf.root = {std::sqrt(part(nodes[leaf.node].stiffness, 0)),
-                   std::sqrt(part(nodes[leaf.node].stiffness, 1))};
+      leaf.root = {{std::sqrt(part(nodes[leaf.node].stiffness, 0)),
+                    std::sqrt(part(nodes[leaf.node].stiffness, 1))}};
 
     for (unsigned int i = nodes.size(); i-- > 0;)
       if (Node &node = nodes[i]; !node.parts.empty())
