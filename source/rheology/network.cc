@@ -51,9 +51,7 @@ namespace Signoton::Rheology
     new_tensors.resize(n_memories);
     new_scalars.resize(n_hardening);
     const unsigned int n = 6 * leaves.size();
-    matrix.resize(n * n);
-    rhs.resize(n);
-    pivots.resize(n);
+    rhs.reinit(n);
     for (unsigned int p = 0; p < 2; ++p)
       {
         N[p].resize(leaves.size() * leaves.size());
@@ -399,6 +397,7 @@ namespace Signoton::Rheology
   {
     const unsigned int m = leaves.size(), n = 6 * m;
     project<true>();
+    matrix.reinit(n);
     for (unsigned int i = 0; i < m; ++i)
       for (unsigned int j = 0; j < m; ++j)
         {
@@ -413,44 +412,10 @@ namespace Signoton::Rheology
           block = block * leaves[j].reflection;
           for (unsigned int a = 0; a < 6; ++a)
             for (unsigned int b = 0; b < 6; ++b)
-              matrix[(6 * i + a) * n + 6 * j + b] =
+              matrix(6 * i + a, 6 * j + b) =
                 block(a, b) + (i == j && a == b ? 1. + shift : 0.);
         }
-    // LU with partial pivoting
-    for (unsigned int k = 0; k < n; ++k)
-      {
-        unsigned int p = k;
-        for (unsigned int i = k + 1; i < n; ++i)
-          if (std::abs(matrix[i * n + k]) > std::abs(matrix[p * n + k]))
-            p = i;
-        pivots[k] = p;
-        if (p != k)
-          std::swap_ranges(&matrix[k * n], &matrix[k * n] + n, &matrix[p * n]);
-        const double inverse = 1. / matrix[k * n + k];
-        for (unsigned int i = k + 1; i < n; ++i)
-          {
-            const double factor = matrix[i * n + k] *= inverse;
-            for (unsigned int j = k + 1; j < n; ++j)
-              matrix[i * n + j] -= factor * matrix[k * n + j];
-          }
-      }
-  }
-
-  void
-  Network::solve_factorized()
-  {
-    const unsigned int n = rhs.size();
-    for (unsigned int k = 0; k < n; ++k)
-      std::swap(rhs[k], rhs[pivots[k]]);
-    for (unsigned int k = 0; k < n; ++k)
-      for (unsigned int j = 0; j < k; ++j)
-        rhs[k] -= matrix[k * n + j] * rhs[j];
-    for (unsigned int k = n; k-- > 0;)
-      {
-        for (unsigned int j = k + 1; j < n; ++j)
-          rhs[k] -= matrix[k * n + j] * rhs[j];
-        rhs[k] /= matrix[k * n + k];
-      }
+    matrix.compute_lu_factorization();
   }
 
   void
@@ -458,8 +423,13 @@ namespace Signoton::Rheology
   {
     // shortest shift: the matrix stays regular where strains are not unique
     constexpr double least = 1e-12, most = 0.3;
-    double           boost = 1.;
-    step.residual          = evaluate();
+    constexpr double sufficient = 1e-10;
+    double           boost      = 1.;
+    step.residual               = evaluate();
+    double       best           = step.residual;
+    unsigned int in_vain        = 0;
+    for (Leaf &leaf : leaves)
+      leaf.best_wave = leaf.wave;
     for (step.iterations = 0;
          step.residual > tolerance && step.iterations < maximum_iterations;
          ++step.iterations)
@@ -475,7 +445,7 @@ namespace Signoton::Rheology
                       leaves[i].defect.end(),
                       rhs.begin() + 6 * i);
           }
-        solve_factorized();
+        matrix.solve(rhs);
 
         double length = 1.;
         bool   moved  = false;
@@ -520,11 +490,28 @@ namespace Signoton::Rheology
               leaf.wave = add_scaled(leaf.old_wave, 0.5, leaf.old_defect);
             step.residual = evaluate();
           }
+        // Near round-off steps and planes no longer help, or lead astray: the
+        // best point of all is kept, and a few more are tried.
+        if (step.residual < 0.5 * best)
+          {
+            best    = step.residual;
+            in_vain = 0;
+            for (Leaf &leaf : leaves)
+              leaf.best_wave = leaf.wave;
+          }
+        else if (best <= sufficient && ++in_vain == 6)
+          break;
         boost = !moved || length < 0.2 ? std::min(100. * boost, 1e8) :
                 length > 0.9           ? std::max(0.1 * boost, 1.) :
                                          boost;
       }
-    step.converged = step.residual <= std::max(tolerance, 1e-10);
+    if (step.residual > best)
+      {
+        for (Leaf &leaf : leaves)
+          leaf.wave = leaf.best_wave;
+        step.residual = evaluate();
+      }
+    step.converged = step.residual <= std::max(tolerance, sufficient);
   }
 
   void
@@ -548,7 +535,7 @@ namespace Signoton::Rheology
             const Vector6 wave = scale(B[0][i], B[1][i], unit);
             std::copy(wave.begin(), wave.end(), rhs.begin() + 6 * i);
           }
-        solve_factorized();
+        matrix.solve(rhs);
         for (unsigned int i = 0; i < leaves.size(); ++i)
           {
             Vector6 wave;

@@ -186,7 +186,6 @@ namespace
     for (unsigned int tree = 0; tree < n; ++tree)
       {
         Network network(parse_scheme(trees.next(), "test"));
-        network.maximum_iterations = 200;
         network.set_time_step(random.power_of_ten(-2., 2.));
         std::vector<Vector6> tensors(network.n_tensors(), Vector6{});
         std::vector<double>  scalars(network.n_scalars(), 0.);

@@ -4,6 +4,8 @@
 #include <signoton/rheology/scheme.h>
 #include <signoton/tensors/mandel.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 namespace Signoton::Rheology
 {
   /**
@@ -149,7 +151,7 @@ namespace Signoton::Rheology
       Vector6               wave;   ///< $t$
       Vector6               defect; ///< $-F(t)$
       Vector6               admissible; ///< $\pi(t)$
-      Vector6               old_wave, old_defect;
+      Vector6               old_wave, old_defect, best_wave;
       Matrix6               reflection; ///< $2\,d\pi/dt-1$
       double                hardening;  ///< new plastic shear
       double                correction; ///< of the potential by hardening
@@ -179,8 +181,6 @@ namespace Signoton::Rheology
     void
     factorize(const double shift);
     void
-    solve_factorized();
-    void
     iterate();
     void
     find_tangent();
@@ -204,14 +204,14 @@ namespace Signoton::Rheology
     /** Inverse of K on the components with given stress. */
     Matrix6 compliance;
 
-    Vector6                   known_strain, known_stress, given_stress;
-    const double             *accepted_scalars = nullptr;
-    double                    wave_scale       = 0.;
-    std::vector<double>       matrix, rhs;
-    std::vector<unsigned int> pivots;
-    std::vector<Vector6>      new_tensors;
-    std::vector<double>       new_scalars;
-    Step                      step;
+    Vector6                  known_strain, known_stress, given_stress;
+    const double            *accepted_scalars = nullptr;
+    double                   wave_scale       = 0.;
+    LAPACKFullMatrix<double> matrix;
+    Vector<double>           rhs;
+    std::vector<Vector6>     new_tensors;
+    std::vector<double>      new_scalars;
+    Step                     step;
   };
 } // namespace Signoton::Rheology
 
