@@ -4,7 +4,9 @@
 #include <signoton/rheology/scheme.h>
 #include <signoton/tensors/mandel.h>
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 namespace Signoton::Rheology
 {
@@ -21,11 +23,11 @@ namespace Signoton::Rheology
    * is a fixed point,
    * $$ F(t)=t-t^+(2\pi(t)-t)=0, $$
    * of a map that does not expand distances in the norm of $A^{-1}$, because
-   * the step minimizes a convex potential: so $F$ is monotone. It is solved by
-   * a semismooth Newton method whose matrix is shifted by a part of the
-   * residual, with the projection onto a hyperplane of Solodov and Svaiter
-   * (1998) where a Newton step does not help; this converges from everywhere,
-   * also where strains of single elements are not unique.
+   * the step minimizes a convex potential. Newton's method solves it where it
+   * converges. It starts from, and returns to, minimizations of that potential
+   * augmented by multipliers (Rockafellar 1976): contacts and hinges with a
+   * compliance, and a stress that makes up for it; they converge from
+   * everywhere, also where strains of single elements are not unique.
    *
    * One object is to be used by one thread at a time: it holds the workspace.
    */
@@ -66,6 +68,7 @@ namespace Signoton::Rheology
       double       potential;  ///< $W_n(\varepsilon)$ in J/m^3
       double       stored;     ///< of springs, hardening, cohesion, in J/m^3
       double       dissipated; ///< by dampers and hinges in the step, in J/m^3
+      double       scale;      ///< energy that errors are relative to, in J/m^3
       unsigned int iterations;
       double       residual; ///< relative
       bool         converged;
@@ -82,6 +85,17 @@ namespace Signoton::Rheology
            const Vector6 *tensors,
            const double  *scalars,
            const bool     with_tangent = true);
+
+    /** An element after the last update(). */
+    struct Element
+    {
+      Scheme::Kind kind;
+      Vector6      strain, stress;
+    };
+
+    /** The elements in the order in which they stand in the scheme. */
+    std::vector<Element>
+    elements() const;
 
     /** New memory, to be accepted or not. */
     const std::vector<Vector6> &
@@ -106,7 +120,10 @@ namespace Signoton::Rheology
 
     /** Residual, relative to the waves, below which a step has converged. */
     double tolerance = 1e-12;
-    /** Iterations after which a step has failed, if still above 1e-10. */
+    /** A residual that is accepted if round-off keeps it from the tolerance. */
+    static constexpr double sufficient = 1e-10;
+    /** Iterations, each with one factorization, after which a step has failed
+     *  if its residual is not even sufficient. */
     unsigned int maximum_iterations = 50;
 
   private:
@@ -119,42 +136,55 @@ namespace Signoton::Rheology
       Moduli stiffness;
       /** Which remembered strain and scalar, or none. */
       int     memory = -1, hardening = -1;
-      Vector6 strain, stress;
+      Vector6 strain{}, stress{};
       Vector6 offset; ///< stress at zero strain
     };
 
-    /** A contact or hinge. Waves are scaled by the root of its metric. */
+    /** A contact or hinge. Its stresses, strains and waves are scaled by the
+     *  root of its metric, so that $t=s+e$. */
     struct Leaf
     {
-      Leaf(const unsigned int node, const AdmissibleSet &set, const double gap)
+      Leaf(const unsigned int   node,
+           const unsigned int   strain_class,
+           const AdmissibleSet &set,
+           const double         gap)
         : node(node)
+        , strain_class(strain_class)
         , set(set)
         , gap(gap)
       {}
 
-      /** The wave that it sends back. */
+      /** A component of the wave that it sends back. */
+      double
+      reflected(const unsigned int c) const
+      {
+        return 2. * admissible[c] - wave[c];
+      }
+
       Vector6
       reflected() const
       {
-        Vector6 result;
-        for (unsigned int c = 0; c < 6; ++c)
-          result[c] = 2. * admissible[c] - wave[c];
-        return result;
+        return add_scaled(scale(-1., -1., wave), 2., admissible);
       }
 
-      unsigned int          node;
+      unsigned int          node, strain_class;
+      int                   memory = -1; ///< of what is in parallel, or none
       AdmissibleSet         set;
       double                gap;
       std::array<double, 2> root; ///< of the spherical and deviatoric metric
-      Vector6               reference; ///< strain $e_0$
-      Vector6               start;  ///< wave if no contact or hinge sends any
-      Vector6               wave;   ///< $t$
-      Vector6               defect; ///< $-F(t)$
+      Vector6               reference;  ///< strain $e_0$, not scaled
+      Vector6               start;      ///< wave if none sends any
+      Vector6               wave;       ///< $t$
       Vector6               admissible; ///< $\pi(t)$
-      Vector6               old_wave, old_defect, best_wave;
-      Matrix6               reflection; ///< $2\,d\pi/dt-1$
+      Matrix6               slope;      ///< $d\pi/dt$, symmetric
       double                hardening;  ///< new plastic shear
       double                correction; ///< of the potential by hardening
+      Vector6               defect;     ///< $-F(t)$
+      Vector6               best_wave;
+      // of the minimizations
+      double  penalty;    ///< stiffness of the contact, of the metric
+      Vector6 multiplier; ///< the stress that makes up for the compliance
+      Vector6 strain, old_strain, direction;
     };
 
     /** Append a subtree; its elements share strains by class. */
@@ -164,29 +194,64 @@ namespace Signoton::Rheology
         unsigned int      &n_classes);
     void
     choose_metrics();
+    void
+    match_metrics(const unsigned int part);
+    double
+    stiffness_of_parts(const Node &node, const unsigned int part) const;
     /** The linear map of waves, by a sweep for each contact and hinge. */
     void
     scatter();
+    /** What the given stresses change in it. */
     void
-    find_compliance();
+    close_control();
+    void
+    find_modes();
     /** Strains and stresses of all nodes, from the offsets of the elements. */
     void
     sweep(const Vector6 &strain);
-    template <bool with_tangent>
     void
-    project();
-    /** Defects of the present waves; the relative residual. */
+    find_strain();
+    /** The waves that reach contacts and hinges if none sends any. */
+    void
+    find_starts();
+    /** Energies and new memory. */
+    void
+    account();
+    void
+    remember();
+
+    // network_solver.cc
+    template <bool with_slope>
+    void
+    project(const bool penalized);
     double
     evaluate();
+    double
+    evaluate_augmented();
+    double
+    relative_defect() const;
+    double
+    slope_along_direction();
     void
-    factorize(const double shift);
+    solve_augmented();
+    bool
+    search_line();
+    void
+    minimize(const double tolerance);
+    void
+    raise_penalties();
+    void
+    factorize(const FullMatrix<double> &map, const double shift);
+    void
+    newton();
+    void
+    keep_best();
+    bool
+    is_finished() const;
     void
     iterate();
     void
     find_tangent();
-    /** Energies and new memory. */
-    void
-    account(const Vector6 *tensors);
 
     std::vector<Node>   nodes; ///< each before its parts
     std::vector<Leaf>   leaves;
@@ -203,12 +268,19 @@ namespace Signoton::Rheology
     std::array<double, 2>              K;
     /** Inverse of K on the components with given stress. */
     Matrix6 compliance;
+    /** N in all components, and with the stresses that are given. */
+    FullMatrix<double> scattering, controlled;
+    /** Eigenvectors of the latter by columns, and one less its eigenvalues. */
+    FullMatrix<double> modes;
+    Vector<double>     stiff_part;
 
     Vector6                  known_strain, known_stress, given_stress;
+    const Vector6           *accepted_tensors = nullptr;
     const double            *accepted_scalars = nullptr;
-    double                   wave_scale       = 0.;
     LAPACKFullMatrix<double> matrix;
-    Vector<double>           rhs;
+    Vector<double>           rhs, work;
+    double                   best_residual = 0.;
+    unsigned int             best_at       = 0;
     std::vector<Vector6>     new_tensors;
     std::vector<double>      new_scalars;
     Step                     step;
