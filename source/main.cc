@@ -12,11 +12,14 @@ namespace
     R"(Signoton: statics of materials that resist tension and compression differently
 
   signoton SCENE.prm                 run a scene
+  signoton point POINT.prm           drive one material point by strain or
+                                     stress: table and diagram
   signoton --explain SCENE.prm       equations, effects on and off with their
                                      bytes, memory forecast; no run
   signoton --validate SCENE.prm      build everything, run nothing; the exit
                                      status says whether it would start
-  signoton --template NAME           print a commented parameter file (statics)
+  signoton --template NAME           print a commented parameter file (statics,
+                                     point)
   signoton --resume DIRECTORY        go on from the checkpoint in an output
                                      directory, on any number of ranks
   signoton --set 'Section/Key=value' override one entry; may be repeated
@@ -123,6 +126,10 @@ main(int argc, char **argv)
       const std::vector<std::string> arguments(argv + 1, argv + argc);
       if (handle_information(arguments, is_root))
         return 0;
+      if (!arguments.empty() && arguments[0] == "point")
+        return static_cast<int>(
+          run_point(MPI_COMM_WORLD,
+                    parse({arguments.begin() + 1, arguments.end()})));
       return static_cast<int>(run_scene(MPI_COMM_WORLD, parse(arguments)));
     }
   catch (const UserError &error)

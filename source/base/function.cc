@@ -124,15 +124,21 @@ namespace Signoton
                 const Constants                &constants,
                 const std::string              &where)
   {
-    const std::string variables = dim == 2 ? "x,y,t" : "x,y,z,t";
+    // in one dimension: of time alone, x is not to be used
+    const std::string variables = dim == 1 ? "x,t" :
+                                  dim == 2 ? "x,y,t" :
+                                             "x,y,z,t";
     for (const std::string &expression : expressions)
       {
-        const std::string error = error_in(expression, dim, constants);
+        const std::string error =
+          error_in(expression, dim == 1 ? 0 : dim, constants);
         if (!error.empty())
           throw UserError(where,
                           "'" + expression + "' (" + error + ")",
-                          "an expression in " + variables +
-                            " and the constants of 'Loads / Constants'",
+                          "an expression in " +
+                            (dim == 1 ? "t" : variables) + " and the " +
+                            (dim == 1 ? "Constants" :
+                                        "constants of 'Loads / Constants'"),
                           "see the function parser of deal.II and muparser");
       }
     auto function = std::make_unique<FunctionParser<dim>>(expressions.size());
@@ -140,6 +146,10 @@ namespace Signoton
     return function;
   }
 
+  template std::unique_ptr<FunctionParser<1>>
+  make_function<1>(const std::vector<std::string> &,
+                   const Constants &,
+                   const std::string &);
   template std::unique_ptr<FunctionParser<2>>
   make_function<2>(const std::vector<std::string> &,
                    const Constants &,

@@ -42,6 +42,7 @@ namespace Signoton
   Statics<dim>::solve(const double new_time, VectorType &u, const bool predict)
   {
     model.set_time(new_time);
+    model.mechanics->set_time_step(new_time - time);
     problem.update_loads();
     if (predict)
       problem.predict(u, model.newton.regularization);
@@ -170,8 +171,10 @@ namespace Signoton
           model.mechanics->load_history(*history_space, history);
         }
     }
-    // back to the admissible set, at fixed strain
+    // back to the admissible set, at fixed strain and in no time: dampers stand
+    // still
     const auto timer = model.ledger.time("constitutive update");
+    model.mechanics->set_time_step(1e-6 * step_size);
     VectorType force(displacement);
     model.mechanics->internal_force(displacement, force, false);
     model.mechanics->commit();

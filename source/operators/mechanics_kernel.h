@@ -47,6 +47,8 @@ namespace Signoton
     void
     set_binder_ratio(const std::optional<double> &ratio) override;
     void
+    set_time_step(const double time_step) override;
+    void
     initialize_vector(VectorType &vector) const override;
     double
     internal_force(const VectorType &displacement,
@@ -98,7 +100,6 @@ namespace Signoton
       unsigned int                      q;
       Number                            weight; ///< volume of the point in m^3
       const Rheology::Response<Number> &response;
-      const Tensor2<Number>            *plastic_strain; ///< or nullptr
     };
     using Visitor = std::function<void(const Point &)>;
 
@@ -112,16 +113,13 @@ namespace Signoton
                const unsigned int                    lane,
                std::vector<types::global_dof_index> &dofs) const;
 
-    template <typename Law>
-    static constexpr unsigned int
-    width()
-    {
-      return Law::n_tensors * n_tensor_entries + Law::n_scalars;
-    }
+    /** Numbers of history at a point. */
+    static unsigned int
+    width(const Rheology::Law &law);
 
     template <typename Law>
-    static Rheology::History<Law, Number>
-    read_history(const Number *values);
+    static void
+    read_history(const Number *values, Rheology::History<Law, Number> &history);
     template <typename Law>
     static void
     write_history(const Rheology::History<Law, Number> &history,
@@ -173,6 +171,7 @@ namespace Signoton
     const Space<dim>                      &space;
     const std::vector<Rheology::Material> &materials;
     std::vector<Rheology::Law>             laws;
+    double                                 time_step = 1.;
     std::vector<unsigned int>              material_of_id;
 
     Data                      data;

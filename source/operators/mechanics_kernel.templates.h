@@ -38,6 +38,29 @@ namespace Signoton
         ratio ?
           std::optional<double>(std::max(*ratio, material.binder_ratio())) :
           ratio));
+    set_time_step(time_step);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::set_time_step(const double new_time_step)
+  {
+    time_step = new_time_step;
+    for (auto &law : laws)
+      if (auto *general = std::get_if<Rheology::General>(&law))
+        general->set_time_step(time_step);
+  }
+
+  template <typename Embedding, int degree>
+  unsigned int
+  MechanicsKernel<Embedding, degree>::width(const Rheology::Law &law)
+  {
+    return std::visit(
+      [](const auto &l) {
+        return Rheology::n_tensors(l) * n_tensor_entries +
+               Rheology::n_scalars(l);
+      },
+      law);
   }
 
   template <typename Embedding, int degree>
@@ -80,9 +103,7 @@ namespace Signoton
         const unsigned int material =
           material_of_id[data.get_cell_iterator(batch, 0)->material_id()];
         material_of_batch[batch] = material;
-        widths[batch]            = std::visit(
-          [](const auto &law) { return width<std::decay_t<decltype(law)>>(); },
-          laws[material]);
+        widths[batch]            = width(laws[material]);
         const bool linear =
           std::holds_alternative<Rheology::Elastic>(laws[material]);
         tangent_offset[batch + 1] =
@@ -103,16 +124,16 @@ namespace Signoton
 
   template <typename Embedding, int degree>
   template <typename Law>
-  Rheology::History<Law, typename MechanicsKernel<Embedding, degree>::Number>
-  MechanicsKernel<Embedding, degree>::read_history(const Number *values)
+  void
+  MechanicsKernel<Embedding, degree>::read_history(
+    const Number                   *values,
+    Rheology::History<Law, Number> &state)
   {
-    Rheology::History<Law, Number> result;
-    for (auto &tensor : result.tensors)
+    for (auto &tensor : state.tensors)
       for (const unsigned int entry : Embedding::tensor_entries)
         tensor.access_raw_entry(entry) = *values++;
-    for (auto &scalar : result.scalars)
+    for (auto &scalar : state.scalars)
       scalar = *values++;
-    return result;
   }
 
   template <typename Embedding, int degree>
@@ -226,8 +247,8 @@ namespace Signoton
     constexpr unsigned int     n_tangent = n_tangent_entries<Embedding>;
     constexpr bool             linear = std::is_same_v<Law, Rheology::Elastic>;
     Rheology::Response<Number> response;
-    Rheology::History<Law, Number> next;
-    double                         sum = 0.;
+    auto   accepted = Rheology::make_history<Number>(law), next = accepted;
+    double sum = 0.;
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         cell.reinit(batch);
@@ -236,9 +257,9 @@ namespace Signoton
         Number potential = 0.;
         for (unsigned int q = 0; q < cell.n_q_points; ++q)
           {
+            read_history<Law>(history.accepted(batch, q), accepted);
             law.template update<request>(strain(cell, q),
-                                         read_history<Law>(
-                                           history.accepted(batch, q)),
+                                         accepted,
                                          next,
                                          response);
             write_history<Law>(next, history.trial(batch, q));

@@ -17,8 +17,8 @@ namespace Signoton
                                                 const VectorType &displacement,
                                                 const Visitor    &visitor)
   {
-    Rheology::Response<Number>     response;
-    Rheology::History<Law, Number> next;
+    Rheology::Response<Number> response;
+    auto accepted = Rheology::make_history<Number>(law), next = accepted;
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         cell.reinit(batch);
@@ -26,15 +26,12 @@ namespace Signoton
         cell.evaluate(cell_flags<Embedding>);
         for (unsigned int q = 0; q < cell.n_q_points; ++q)
           {
-            law.template update<Rheology::energies>(
-              strain(cell, q),
-              read_history<Law>(history.accepted(batch, q)),
-              next,
-              response);
-            const Tensor2<Number> *plastic = nullptr;
-            if constexpr (Law::n_tensors > 0)
-              plastic = &next.tensors[0];
-            visitor({batch, q, weight(cell, q), response, plastic});
+            read_history<Law>(history.accepted(batch, q), accepted);
+            law.template update<Rheology::energies>(strain(cell, q),
+                                                    accepted,
+                                                    next,
+                                                    response);
+            visitor({batch, q, weight(cell, q), response});
           }
       }
   }
@@ -112,9 +109,8 @@ namespace Signoton
                 w * point.response.stress.access_raw_entry(c)[i];
               average.contact_strain[c] +=
                 w * point.response.contact_strain.access_raw_entry(c)[i];
-              if (point.plastic_strain)
-                average.plastic_strain[c] +=
-                  w * point.plastic_strain->access_raw_entry(c)[i];
+              average.plastic_strain[c] +=
+                w * point.response.plastic_strain.access_raw_entry(c)[i];
             }
           average.energy_density += w * point.response.stored_energy[i];
           average.mixed |= volume[cell] > 0. && region != average.region;
@@ -167,12 +163,7 @@ namespace Signoton
   {
     unsigned int result = 0;
     for (const auto &law : laws)
-      result = std::max(result,
-                        std::visit(
-                          [](const auto &l) {
-                            return width<std::decay_t<decltype(l)>>();
-                          },
-                          law));
+      result = std::max(result, width(law));
     return result;
   }
 
@@ -222,7 +213,7 @@ namespace Signoton
       {
         const unsigned int n_tensor_values = std::visit(
           [](const auto &law) {
-            return std::decay_t<decltype(law)>::n_tensors * n_tensor_entries;
+            return Rheology::n_tensors(law) * n_tensor_entries;
           },
           laws[material_of_batch[batch]]);
         for (unsigned int i = 0;

@@ -1,3 +1,5 @@
+#include <signoton/rheology/classification.h>
+#include <signoton/rheology/library.h>
 #include <signoton/rheology/material.h>
 
 #include <deal.II/base/utilities.h>
@@ -25,16 +27,19 @@ namespace Signoton::Rheology
     handler.add_parameter("Material id",
                           id,
                           "The material id of the cells that consist of it.");
+    std::vector<std::string> names;
+    for (const auto &scheme : ready_schemes())
+      names.push_back(scheme.name + " (Fig. " + scheme.figure +
+                      "): " + scheme.text);
     handler.add_parameter(
       "Rheology",
       rheology,
-      "elastic: a spring. elastic granular: spring in series with a rigid "
-      "contact on a cone (reversible, no tension). elastic plastic: spring in "
-      "series with a plastic hinge on a yield set. elastic plastic granular: "
-      "spring, contact on the cone and hinge on a von Mises cylinder in "
-      "series.",
-      Patterns::Selection("elastic|elastic granular|elastic plastic|"
-                          "elastic plastic granular"));
+      "The scheme of springs, dampers, plastic hinges and rigid contacts: by "
+      "the name of a ready one, of one in the section Schemes, or written out, "
+      "as series(spring(bulk = 1e8, shear = 6e7), contact(coulomb mohr, "
+      "friction angle = 30)). Ready ones take their constants from the keys of "
+      "the material: " +
+        join(names, ". ") + ".");
     handler.add_parameter(
       "Admissible set",
       admissible_set,
@@ -123,25 +128,52 @@ namespace Signoton::Rheology
                           "Shear back stress per plastic shear of the von "
                           "Mises hinge (Prager) in Pa.",
                           non_negative);
+    handler.add_parameter("Bulk viscosity",
+                          bulk_viscosity,
+                          "Of the damper, in Pa s.",
+                          non_negative);
+    handler.add_parameter("Shear viscosity",
+                          shear_viscosity,
+                          "Of the damper, in Pa s.",
+                          non_negative);
+    handler.add_parameter("Second bulk modulus",
+                          second_bulk_modulus,
+                          "Of the second spring of a ready scheme, in Pa: "
+                          "binder, hardening, fibers.",
+                          non_negative);
+    handler.add_parameter("Second shear modulus",
+                          second_shear_modulus,
+                          "Of the second spring, in Pa.",
+                          non_negative);
+    handler.add_parameter("Gap",
+                          gap,
+                          "Volumetric strain, as a positive number, after "
+                          "which pores are closed.",
+                          non_negative);
   }
 
   bool
   Material::is_elastic() const
   {
-    return rheology == "elastic";
+    return std::holds_alternative<Elastic>(law());
   }
 
   bool
   Material::is_reversible() const
   {
-    return rheology == "elastic" || rheology == "elastic granular";
+    return !contains(scheme(), Scheme::Kind::hinge) && !is_viscous();
+  }
+
+  bool
+  Material::is_viscous() const
+  {
+    return contains(scheme(), Scheme::Kind::damper);
   }
 
   bool
   Material::has_cone() const
   {
-    return rheology == "elastic granular" ||
-           rheology == "elastic plastic granular";
+    return contains(scheme(), Scheme::Kind::contact);
   }
 
   bool
@@ -153,72 +185,119 @@ namespace Signoton::Rheology
   bool
   Material::may_lose_stiffness() const
   {
-    const Moduli parallel = binder({});
-    return !is_elastic() && admissible_set != "von mises" &&
-           admissible_set != "tresca" &&
-           !(parallel.bulk > 0. && parallel.shear > 0.);
+    const Moduli left = loosened_moduli(scheme());
+    return !(left.bulk > 0. && left.shear > 0.);
+  }
+
+  bool
+  Material::uses(const std::string &element) const
+  {
+    const ReadyScheme *ready = ready_scheme(rheology);
+    return ready != nullptr &&
+           ready->text.find("{" + element + "}") != std::string::npos;
+  }
+
+  bool
+  Material::uses_set() const
+  {
+    return uses("contact") || uses("bound contact") || uses("cone") ||
+           uses("contact with gap") || uses("hinge on set");
   }
 
   std::vector<std::string>
   Material::required_keys() const
   {
     std::vector<std::string> keys = {"Rheology"};
-    if (is_elastic())
-      return keys;
-    if (rheology != "elastic plastic granular")
-      keys.emplace_back("Admissible set");
-    if (admissible_set == "mises schleicher")
-      keys.emplace_back("Friction parameter");
-    else if (admissible_set == "coulomb mohr")
-      keys.emplace_back("Friction angle");
-    if (rheology == "elastic plastic granular" ||
-        admissible_set == "von mises" || admissible_set == "tresca")
+    if (uses_set())
+      {
+        if (!uses("cone"))
+          keys.emplace_back("Admissible set");
+        if (admissible_set == "mises schleicher")
+          keys.emplace_back("Friction parameter");
+        else if (admissible_set == "coulomb mohr")
+          keys.emplace_back("Friction angle");
+      }
+    if (uses("hinge") || (uses_set() && (admissible_set == "von mises" ||
+                                         admissible_set == "tresca")))
       keys.emplace_back("Shear strength");
-    if (binder_kind == "moduli")
+    if (uses("bound contact") && binder_kind == "moduli")
       {
         keys.emplace_back("Binder bulk modulus");
         keys.emplace_back("Binder shear modulus");
       }
+    if (uses("damper"))
+      keys.emplace_back("Shear viscosity");
+    if (uses("second spring"))
+      {
+        keys.emplace_back("Second bulk modulus");
+        keys.emplace_back("Second shear modulus");
+      }
+    if (uses("contact with gap"))
+      keys.emplace_back("Gap");
     return keys;
   }
 
   std::vector<std::string>
   Material::optional_keys() const
   {
-    std::vector<std::string> keys = {"Material id",
-                                     "Density",
-                                     "Bulk modulus",
-                                     "Shear modulus",
-                                     "Young modulus",
-                                     "Poisson ratio"};
-    if (is_elastic())
-      return keys;
-    if (rheology == "elastic plastic granular")
+    std::vector<std::string> keys = {"Material id", "Density"};
+    if (uses("spring"))
+      for (const char *key :
+           {"Bulk modulus", "Shear modulus", "Young modulus", "Poisson ratio"})
+        keys.emplace_back(key);
+    if (uses("cone"))
       keys.emplace_back("Admissible set");
-    if (admissible_set == "mises schleicher" ||
-        admissible_set == "coulomb mohr")
-      keys.emplace_back("Cohesion");
-    if (admissible_set == "no tension")
-      keys.emplace_back("Tensile strength");
-    if (has_cone())
-      keys.emplace_back("Binder");
-    if (binder_kind == "proportional")
-      keys.emplace_back("Binder ratio");
-    if (admissible_set == "von mises")
+    if (uses_set() && !uses("contact with gap"))
+      {
+        if (admissible_set == "mises schleicher" ||
+            admissible_set == "coulomb mohr")
+          keys.emplace_back("Cohesion");
+        if (admissible_set == "no tension")
+          keys.emplace_back("Tensile strength");
+      }
+    if (uses("bound contact"))
+      {
+        keys.emplace_back("Binder");
+        if (binder_kind == "proportional")
+          keys.emplace_back("Binder ratio");
+      }
+    if (uses("hinge on set") && admissible_set == "von mises")
       {
         keys.emplace_back("Isotropic hardening modulus");
         keys.emplace_back("Kinematic hardening modulus");
       }
+    if (uses("damper"))
+      keys.emplace_back("Bulk viscosity");
     return keys;
   }
 
   void
-  Material::check(const SceneFile &file) const
+  Material::check(const SceneFile &file)
   {
-    const SceneFile::Path path     = {"Materials", name};
-    const auto            required = required_keys();
-    const auto            optional = optional_keys();
-    const auto            given    = [&](const std::string &key) {
+    const SceneFile::Path path = {"Materials", name};
+    where                      = file.where(path, "Rheology");
+    for (const std::string &key : file.keys({"Schemes"}))
+      definitions[key] = file.value({"Schemes"}, key);
+    const bool is_written = rheology.find('(') != std::string::npos ||
+                            definitions.count(rheology) > 0;
+    if (!is_written && ready_scheme(rheology) == nullptr)
+      {
+        std::vector<std::string> names;
+        for (const auto &scheme : ready_schemes())
+          names.push_back(scheme.name);
+        for (const auto &definition : definitions)
+          names.push_back(definition.first);
+        const std::string nearest = nearest_name(rheology, names);
+        throw UserError(where,
+                        "'" + rheology + "'",
+                        "a scheme as text, or one of: " + join(names, ", "),
+                        nearest.empty() ?
+                          "for instance 'set Rheology = elastic granular'" :
+                          "did you mean '" + nearest + "'?");
+      }
+    const auto required = required_keys();
+    const auto optional = optional_keys();
+    const auto given    = [&](const std::string &key) {
       return file.has(path, key);
     };
     const auto refuse = [&](const std::string &key,
@@ -235,17 +314,16 @@ namespace Signoton::Rheology
       if (!given(key))
         refuse(key,
                "a value, since Rheology is '" + rheology + "'" +
-                 (is_elastic() ?
-                    "" :
-                    " and Admissible set '" + admissible_set + "'"),
+                 (uses_set() ? " and Admissible set '" + admissible_set + "'" :
+                               ""),
                "add 'set " + key + " = ...'");
     for (const std::string &key : file.keys(path))
       if (!contains(required, key) && !contains(optional, key))
         refuse(key,
                "no such key with Rheology '" + rheology + "'" +
-                 (is_elastic() ? std::string() :
-                                 ", Admissible set '" + admissible_set +
-                                   "' and Binder '" + binder_kind + "'"),
+                 (uses_set() ? ", Admissible set '" + admissible_set +
+                                 "' and Binder '" + binder_kind + "'" :
+                               ""),
                "remove the key, it would have no effect, or choose the "
                "rheology that it belongs to");
 
@@ -258,9 +336,9 @@ namespace Signoton::Rheology
              "remove one pair");
     if (by_young && !(young_modulus > 0.))
       refuse("Young modulus", "a positive number in Pa", "set it");
-    if (!by_young && !(bulk_modulus > 0.))
+    if (uses("spring") && !by_young && !(bulk_modulus > 0.))
       refuse("Bulk modulus", "a positive number in Pa", "set it");
-    if (!by_young && !(shear_modulus > 0.))
+    if (uses("spring") && !by_young && !(shear_modulus > 0.))
       refuse("Shear modulus", "a positive number in Pa", "set it");
 
     const auto allow_sets = [&](const std::vector<std::string> &sets) {
@@ -270,11 +348,11 @@ namespace Signoton::Rheology
                  "'",
                "a rigid contact needs a cone, a plastic hinge a yield set");
     };
-    if (rheology == "elastic granular")
+    if (uses("contact") || uses("bound contact") || uses("contact with gap"))
       allow_sets({"mises schleicher", "coulomb mohr", "no tension"});
-    if (rheology == "elastic plastic")
+    if (uses("hinge on set") && !uses("contact with gap"))
       allow_sets({"mises schleicher", "coulomb mohr", "von mises", "tresca"});
-    if (rheology == "elastic plastic granular")
+    if (uses("cone"))
       allow_sets({"mises schleicher"});
 
     if (contains(required, "Friction angle") && friction_angle < 1.6)
@@ -288,17 +366,36 @@ namespace Signoton::Rheology
                "Admissible set = tresca");
     if (contains(required, "Friction parameter") && !(friction_parameter > 0.))
       refuse("Friction parameter", "a positive number", "for instance 0.5");
-    if (contains(required, "Shear strength") && !(shear_strength > 0.))
-      refuse("Shear strength", "a positive number in Pa", "set it");
+    for (const char *key : {"Shear strength",
+                            "Shear viscosity",
+                            "Second bulk modulus",
+                            "Second shear modulus",
+                            "Gap"})
+      if (contains(required, key) &&
+          !(Utilities::string_to_double(file.value(path, key)) > 0.))
+        refuse(key, "a positive number", "set it");
+    scheme(); // complains about errors in it
+  }
+
+  void
+  Material::require_stress_from_strain() const
+  {
+    Rheology::require_stress_from_strain(scheme(), where);
   }
 
   Moduli
-  Material::elasticity() const
+  Material::spring() const
   {
     if (young_modulus > 0.)
       return {young_modulus / (3. * (1. - 2. * poisson_ratio)),
               young_modulus / (2. * (1. + poisson_ratio))};
     return {bulk_modulus, shear_modulus};
+  }
+
+  Moduli
+  Material::elasticity() const
+  {
+    return spring_moduli(scheme());
   }
 
   double
@@ -310,111 +407,109 @@ namespace Signoton::Rheology
   Moduli
   Material::binder(const std::optional<double> &ratio) const
   {
-    const Moduli spring = elasticity();
     if (binder_kind == "moduli")
       return {binder_bulk_modulus, binder_shear_modulus};
-    if (binder_kind == "proportional")
-      {
-        const double lambda = ratio.value_or(proportional_binder);
-        const double factor = lambda / (1. - lambda);
-        return {factor * spring.bulk, factor * spring.shear};
-      }
-    return {0., kinematic_hardening_modulus};
+    const double lambda = ratio.value_or(proportional_binder);
+    const double factor = lambda / (1. - lambda);
+    return {factor * spring().bulk, factor * spring().shear};
   }
 
-  double
-  Material::apex() const
+  std::string
+  Material::set_text() const
   {
+    std::ostringstream text;
+    text.precision(17);
+    text << admissible_set << ", ";
     if (admissible_set == "mises schleicher")
-      return cohesion / friction_parameter;
-    if (admissible_set == "coulomb mohr")
-      return cohesion / std::tan(friction_angle * degree);
-    return tensile_strength;
+      text << "friction = " << friction_parameter;
+    else if (admissible_set == "coulomb mohr")
+      text << "friction angle = " << friction_angle;
+    else if (admissible_set == "no tension")
+      text << "tensile strength = " << tensile_strength;
+    else
+      text << "strength = " << shear_strength;
+    if (cohesion > 0.)
+      text << ", cohesion = " << cohesion;
+    if (isotropic_hardening_modulus > 0.)
+      text << ", isotropic hardening = " << isotropic_hardening_modulus;
+    return text.str();
+  }
+
+  std::string
+  Material::element(const std::string           &name,
+                    const std::optional<double> &ratio) const
+  {
+    std::ostringstream text;
+    text.precision(17);
+    const auto spring_text = [&](const Moduli &moduli) {
+      text << "spring(bulk = " << moduli.bulk << ", shear = " << moduli.shear
+           << ")";
+    };
+    if (name == "spring")
+      spring_text(spring());
+    else if (name == "second spring")
+      spring_text({second_bulk_modulus, second_shear_modulus});
+    else if (name == "damper")
+      text << "damper(bulk viscosity = " << bulk_viscosity
+           << ", shear viscosity = " << shear_viscosity << ")";
+    else if (name == "hinge")
+      text << "hinge(von mises, strength = " << shear_strength << ")";
+    else if (name == "contact with gap")
+      text << "contact(" << set_text() << ", gap = " << gap << ")";
+    else
+      {
+        const bool   is_hinge = name == "hinge on set";
+        const Moduli parallel =
+          is_hinge ? Moduli{0., kinematic_hardening_modulus} :
+          name == "bound contact" && binder_kind != "none" ? binder(ratio) :
+                                                             Moduli{0., 0.};
+        const bool with_spring = parallel.bulk > 0. || parallel.shear > 0.;
+        text << (with_spring ? "parallel(" : "")
+             << (is_hinge ? "hinge(" : "contact(") << set_text() << ")";
+        if (with_spring)
+          {
+            text << ", ";
+            spring_text(parallel);
+            text << ")";
+          }
+      }
+    return text.str();
+  }
+
+  Scheme
+  Material::scheme(const std::optional<double> &ratio) const
+  {
+    const ReadyScheme *ready = ready_scheme(rheology);
+    if (ready == nullptr)
+      return parse_scheme(rheology, where, definitions);
+    std::string text = ready->text;
+    for (std::size_t begin; (begin = text.find('{')) != std::string::npos;)
+      {
+        const std::size_t end = text.find('}', begin);
+        text.replace(begin,
+                     end - begin + 1,
+                     element(text.substr(begin + 1, end - begin - 1), ratio));
+      }
+    return parse_scheme(text, where);
   }
 
   Law
   Material::law(const std::optional<double> &ratio) const
   {
-    const Moduli spring        = elasticity();
-    const Moduli parallel      = binder(ratio);
-    const auto   principal_set = [&]() {
-      if (admissible_set == "coulomb mohr")
-        return PrincipalSet::coulomb_mohr(friction_angle * degree, apex());
-      if (admissible_set == "no tension")
-        return PrincipalSet::no_tension(apex());
-      return PrincipalSet::tresca(shear_strength);
-    };
-    const auto cone = [&]() {
-      return MisesSchleicherCone(friction_parameter, apex());
-    };
-
-    if (is_elastic())
-      return Elastic(spring);
-    if (rheology == "elastic plastic granular")
-      return SpringAndProjection<MisesSchleicherCone, Memory::cylinder>(
-        spring,
-        parallel,
-        MisesSchleicherCone(friction_parameter, apex(), shear_strength));
-    if (rheology == "elastic granular")
-      {
-        if (admissible_set == "mises schleicher")
-          return SpringAndProjection<MisesSchleicherCone, Memory::none>(
-            spring, parallel, cone());
-        return SpringAndProjection<PrincipalSet, Memory::none>(spring,
-                                                               parallel,
-                                                               principal_set());
-      }
-    if (admissible_set == "mises schleicher")
-      return SpringAndProjection<MisesSchleicherCone, Memory::all>(spring,
-                                                                   parallel,
-                                                                   cone());
-    if (admissible_set == "von mises")
-      {
-        if (isotropic_hardening_modulus > 0.)
-          return SpringAndProjection<VonMisesCylinder<true>, Memory::all>(
-            spring,
-            parallel,
-            VonMisesCylinder<true>(shear_strength,
-                                   isotropic_hardening_modulus));
-        return SpringAndProjection<VonMisesCylinder<false>, Memory::all>(
-          spring, parallel, VonMisesCylinder<false>(shear_strength));
-      }
-    return SpringAndProjection<PrincipalSet, Memory::all>(spring,
-                                                          parallel,
-                                                          principal_set());
+    const Scheme             tree   = scheme(ratio);
+    const std::optional<Law> closed = closed_form(tree);
+    return closed ? *closed : General(tree);
   }
 
   std::string
   Material::description() const
   {
-    std::ostringstream text;
-    const Moduli       spring = elasticity();
-    text << rheology << ": spring k = " << spring.bulk
-         << " Pa, mu = " << spring.shear << " Pa";
-    if (is_elastic())
-      return text.str();
-    text << (is_reversible() ? "; rigid contact on " :
-             has_cone()      ? "; rigid contact and plastic hinge on " :
-                               "; plastic hinge on ");
-    if (admissible_set == "mises schleicher")
-      text << "tau <= " << friction_parameter << " p + " << cohesion << " Pa";
-    else if (admissible_set == "coulomb mohr")
-      text << "Coulomb-Mohr with phi = " << friction_angle
-           << " degrees, c = " << cohesion << " Pa";
-    else if (admissible_set == "no tension")
-      text << "principal stresses <= " << tensile_strength << " Pa";
-    else
-      text << admissible_set << " with tau_Y = " << shear_strength << " Pa";
-    if (rheology == "elastic plastic granular")
-      text << " and tau <= " << shear_strength << " Pa";
-    if (binder_kind == "proportional")
-      text << "; binder lambda = " << proportional_binder;
-    else if (binder_kind == "moduli")
-      text << "; binder k = " << binder_bulk_modulus
-           << " Pa, mu = " << binder_shear_modulus << " Pa";
-    if (isotropic_hardening_modulus > 0. || kinematic_hardening_modulus > 0.)
-      text << "; hardening " << isotropic_hardening_modulus << " Pa isotropic, "
-           << kinematic_hardening_modulus << " Pa kinematic";
-    return text.str();
+    const Scheme      tree   = scheme();
+    const bool        closed = closed_form(tree).has_value();
+    const std::string text =
+      rheology +
+      (ready_scheme(rheology) != nullptr ? " = " + tree.text : std::string());
+    return text + "; " + classification(tree) +
+           (closed ? "; closed form" : "; general local solver");
   }
 } // namespace Signoton::Rheology

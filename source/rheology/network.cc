@@ -83,8 +83,10 @@ namespace Signoton::Rheology
   {
     const unsigned int id = nodes.size();
     nodes.emplace_back();
-    nodes[id].kind   = scheme.kind;
-    nodes[id].moduli = scheme.moduli;
+    nodes[id].kind        = scheme.kind;
+    nodes[id].moduli      = scheme.moduli;
+    nodes[id].has_contact = scheme.kind == Kind::contact;
+    nodes[id].has_hinge   = scheme.kind == Kind::hinge;
     if (scheme.kind == Kind::damper || scheme.kind == Kind::hinge)
       {
         int &memory = memory_of_class[strain_class];
@@ -108,6 +110,8 @@ namespace Signoton::Rheology
           }
         const unsigned int child = add(one, its_class, n_classes);
         nodes[id].parts.push_back(child);
+        nodes[id].has_contact |= nodes[child].has_contact;
+        nodes[id].has_hinge |= nodes[child].has_hinge;
       }
     return id;
   }
@@ -151,7 +155,7 @@ namespace Signoton::Rheology
       if (!(part(largest, p) > 0.))
         (p == 0 ? largest.bulk : largest.shear) =
           p == 0 ? largest.shear : largest.bulk;
-    constexpr double tiny = 1e-14;
+    constexpr double tiny = 1e-11;
     for (Node &node : nodes)
       if (is_linear(node.kind))
         {
@@ -182,6 +186,8 @@ namespace Signoton::Rheology
           if (part(node.moduli, p) > 0.)
             softest = std::min(softest, k);
         }
+    if (!(stiffest > 0.)) // rigid elements alone: any metric will do
+      softest = stiffest = 1.;
     softest           = std::min(softest, stiffest);
     const auto assign = [p](Node &node, const double k) {
       (p == 0 ? node.stiffness.bulk : node.stiffness.shear) =
@@ -337,6 +343,41 @@ namespace Signoton::Rheology
       if (node.parts.empty())
         result.push_back({node.kind, node.strain, node.stress});
     return result;
+  }
+
+  Region
+  Network::region() const
+  {
+    Region of_contacts = Region::interior, of_hinges = Region::interior;
+    for (const Leaf &leaf : leaves)
+      {
+        Region &region =
+          nodes[leaf.node].kind == Kind::contact ? of_contacts : of_hinges;
+        region = std::max(region, leaf.region);
+      }
+    return of_contacts != Region::interior ? of_contacts : of_hinges;
+  }
+
+  Vector6
+  Network::contact_strain() const
+  {
+    Vector6 sum{};
+    if (nodes[0].kind == Kind::series)
+      for (const unsigned int c : nodes[0].parts)
+        if (nodes[c].has_contact)
+          sum = add_scaled(sum, 1., nodes[c].strain);
+    return sum;
+  }
+
+  Vector6
+  Network::plastic_strain() const
+  {
+    Vector6 sum{};
+    if (nodes[0].kind == Kind::series)
+      for (const unsigned int c : nodes[0].parts)
+        if (nodes[c].has_hinge && !nodes[c].has_contact)
+          sum = add_scaled(sum, 1., nodes[c].strain);
+    return sum;
   }
 
   void

@@ -1,5 +1,7 @@
 #include <signoton/rheology/network.h>
 
+#include <deal.II/lac/lapack_templates.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,11 +20,35 @@ namespace Signoton::Rheology
     const unsigned int n = controlled.m();
     if (n == 0)
       return;
-    LAPACKFullMatrix<double> map(n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
-        map(i, j) = 0.5 * (controlled(i, j) + controlled(j, i));
-    map.compute_eigenvalues_symmetric(-2., 2., 0., stiff_part, modes);
+        modes(i, j) = 0.5 * (controlled(i, j) + controlled(j, i));
+    // Many eigenvalues are repeated, which LAPACK's expert driver, the one in
+    // LAPACKFullMatrix, does not always take.
+    const types::blas_int size = n;
+    types::blas_int       info = 0, n_work = -1;
+    double                best_n_work = 0.;
+    syev("V",
+         "U",
+         &size,
+         &modes(0, 0),
+         &size,
+         stiff_part.begin(),
+         &best_n_work,
+         &n_work,
+         &info);
+    n_work = static_cast<types::blas_int>(best_n_work);
+    std::vector<double> workspace(n_work);
+    syev("V",
+         "U",
+         &size,
+         &modes(0, 0),
+         &size,
+         stiff_part.begin(),
+         workspace.data(),
+         &n_work,
+         &info);
+    AssertThrow(info == 0, ExcInternalError());
     constexpr double rigid = 1e-13;
     for (double &value : stiff_part)
       value = std::max(1. - value, rigid);
@@ -53,6 +79,8 @@ namespace Signoton::Rheology
         leaf.admissible = scale(1. / leaf.root[0],
                                 1. / leaf.root[1],
                                 to_mandel(projection.stress));
+        leaf.region =
+          static_cast<Region>(static_cast<unsigned int>(projection.region));
         leaf.hardening  = projection.hardening;
         leaf.correction = projection.potential_correction;
         if constexpr (with_slope)
@@ -128,8 +156,8 @@ namespace Signoton::Rheology
         double defect = 0., direction = 0.;
         for (unsigned int i = 0; i < n; ++i)
           {
-            defect += modes(i, mode) * leaves[i / 6].defect[i % 6];
-            direction += modes(i, mode) * leaves[i / 6].direction[i % 6];
+            defect += modes(mode, i) * leaves[i / 6].defect[i % 6];
+            direction += modes(mode, i) * leaves[i / 6].direction[i % 6];
           }
         result -= defect * direction / stiff_part[mode];
       }

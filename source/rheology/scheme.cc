@@ -237,8 +237,10 @@ namespace Signoton::Rheology
               }
             else
               {
-                scheme.moduli.bulk  = number("bulk", positive);
-                scheme.moduli.shear = number("shear", positive);
+                scheme.moduli.bulk = number("bulk", not_negative);
+                scheme.moduli.shear =
+                  number("shear",
+                         scheme.moduli.bulk > 0. ? not_negative : positive);
               }
           }
         else if (name == "damper")
@@ -306,6 +308,8 @@ namespace Signoton::Rheology
         if (set == "no tension" && !is_hinge)
           return PrincipalSet::no_tension(
             number("tensile strength", not_negative, 0.));
+        if (set == "no compression" && !is_hinge)
+          return NoCompression();
         if (set == "tresca" && is_hinge)
           return PrincipalSet::tresca(number("strength", positive));
         if (set == "von mises" && is_hinge)
@@ -320,8 +324,8 @@ namespace Signoton::Rheology
         refuse(at,
                is_hinge ? "a yield set: von mises, tresca, mises schleicher, "
                           "coulomb mohr or hydrostatic" :
-                          "a cone: mises schleicher, coulomb mohr, no tension "
-                          "or hydrostatic",
+                          "a cone: mises schleicher, coulomb mohr, no tension, "
+                          "no compression or hydrostatic",
                is_hinge ? "hinge(von mises, strength = 1e5)" :
                           "contact(coulomb mohr, friction angle = 30)");
       }

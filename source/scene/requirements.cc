@@ -41,8 +41,10 @@ namespace Signoton
       names_of(materials, [](const auto &m) { return !m.is_elastic(); });
     const auto contact =
       names_of(materials, [](const auto &m) { return m.has_cone(); });
-    const auto plastic =
+    const auto remembering =
       names_of(materials, [](const auto &m) { return !m.is_reversible(); });
+    const auto viscous =
+      names_of(materials, [](const auto &m) { return m.is_viscous(); });
     const auto binder =
       names_of(materials, [](const auto &m) { return m.has_binder(); });
     const auto heavy =
@@ -63,10 +65,15 @@ namespace Signoton
                                  "materials " + inelastic,
              inelastic.empty() ? 0 : tangent_entries(*model.space) * number},
             {"history",
-             !plastic.empty(),
-             plastic.empty() ? "no plastic hinge: the response is reversible" :
-                               "plastic hinge in " + plastic,
+             !remembering.empty(),
+             remembering.empty() ?
+               "no plastic hinge, no damper: the response is reversible" :
+               "plastic hinges or dampers in " + remembering,
              2 * model.mechanics->history_width() * number},
+            {"viscosity",
+             !viscous.empty(),
+             viscous.empty() ? "no damper" : "dampers in " + viscous,
+             0},
             {"elastic binder",
              !binder.empty(),
              binder.empty() ? "no binder" : "materials " + binder,

@@ -1,3 +1,4 @@
+#include <signoton/drivers/point.h>
 #include <signoton/drivers/statics.h>
 #include <signoton/scene/requirements.h>
 #include <signoton/scene/scene.h>
@@ -55,6 +56,15 @@ namespace Signoton
         material.add_parameters(prm);
         prm.leave_subsection();
       }
+    prm.leave_subsection();
+
+    // names are free
+    prm.enter_subsection("Schemes");
+    for (const auto &name : model.file.keys({"Schemes"}))
+      prm.declare_entry(name,
+                        "",
+                        Patterns::Anything(),
+                        "A rheological scheme, or a part of one, by name.");
     prm.leave_subsection();
 
     prm.enter_subsection("Boundaries");
@@ -118,8 +128,11 @@ namespace Signoton
                       "a subsection with the name of a material",
                       "'subsection Materials', 'subsection sand', 'set "
                       "Rheology = elastic', ...");
-    for (const auto &material : model.materials)
-      material.check(file);
+    for (auto &material : model.materials)
+      {
+        material.check(file);
+        material.require_stress_from_strain();
+      }
     if (!gravity_text.empty())
       model.gravity =
         vector_function(gravity_text, file.where({"Loads"}, "Gravity"));
@@ -389,16 +402,40 @@ namespace Signoton
                     "2 for plane strain and axisymmetric scenes");
   }
 
+  ExitStatus
+  run_point(const MPI_Comm &communicator, const Options &options)
+  {
+    SceneFile file = SceneFile::read(options.scene_file);
+    for (const auto &assignment : options.overrides)
+      file.override_entry(assignment);
+    PointDriver point(communicator, file);
+    if (!options.output_directory.empty())
+      point.directory = options.output_directory;
+    if (point.directory.empty())
+      point.directory =
+        "output/" + std::filesystem::path(options.scene_file).stem().string();
+    if (options.action == Options::Action::run)
+      return point.run();
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::cout << (options.action == Options::Action::explain ?
+                      point.explanation() :
+                      "The file is valid.\n");
+    return ExitStatus::completed;
+  }
+
   std::string
   scene_template(const std::string &analysis)
   {
-    if (analysis != "statics")
+    std::ostringstream out;
+    if (analysis == "point")
+      PointDriver::print_template(out);
+    else if (analysis == "statics")
+      Scene<2>::print_template(out);
+    else
       throw UserError("command line, --template",
                       "'" + analysis + "'",
-                      "one of: statics",
+                      "one of: statics, point",
                       "'signoton --template statics'");
-    std::ostringstream out;
-    Scene<2>::print_template(out);
     return out.str();
   }
 } // namespace Signoton

@@ -1,7 +1,7 @@
 #ifndef signoton_tests_rheology_common_h
 #define signoton_tests_rheology_common_h
 
-#include <signoton/rheology/law.h>
+#include <signoton/rheology/laws.h>
 
 #include <algorithm>
 #include <cmath>
@@ -175,9 +175,14 @@ namespace Signoton::Testing
   {
     bool passed = true;
     for (const auto &entry : all_laws())
-      passed &=
-        std::visit([&](const auto &law) { return check(entry.name, law); },
-                   entry.law);
+      passed &= std::visit(
+        [&](const auto &law) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(law)>, General>)
+            return false; // has tests of its own
+          else
+            return check(entry.name, law);
+        },
+        entry.law);
     return passed;
   }
 

@@ -19,7 +19,8 @@ namespace Signoton
 
   /**
    * A function of space and time from the scene file, with one expression a
-   * component, in the variables `x, y, z` (as many as dimensions) and `t`.
+   * component, in the variables `x, y, z` (as many as dimensions, none of them if that
+   * is one) and `t`.
    * @param where place named if an expression cannot be parsed
    */
   template <int dim>

@@ -57,6 +57,10 @@ namespace Signoton
     virtual void
     set_binder_ratio(const std::optional<double> &ratio = {}) = 0;
 
+    /** The time step in s, for laws with viscosity. */
+    virtual void
+    set_time_step(const double time_step) = 0;
+
     /** A vector of unknowns with the ghosts that the sweeps need. */
     virtual void
     initialize_vector(VectorType &vector) const = 0;

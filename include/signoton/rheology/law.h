@@ -5,7 +5,7 @@
 #include <signoton/rheology/principal_set.h>
 #include <signoton/rheology/von_mises.h>
 
-#include <variant>
+#include <array>
 
 namespace Signoton::Rheology
 {
@@ -30,6 +30,7 @@ namespace Signoton::Rheology
     Number          stored_energy;  ///< in J/m^3
     Number          dissipation;    ///< of the step, in J/m^3
     Tensor2<Number> contact_strain; ///< strain of the rigid contact
+    Tensor2<Number> plastic_strain; ///< strain of the plastic hinge
   };
 
   /** History of a law with `n_tensors` tensors and `n_scalars` scalars. */
@@ -68,6 +69,7 @@ namespace Signoton::Rheology
           response.stored_energy  = 0.5 * (response.stress * strain);
           response.dissipation    = 0.;
           response.contact_strain = Tensor2<Number>();
+          response.plastic_strain = Tensor2<Number>();
         }
     }
 
@@ -209,9 +211,13 @@ namespace Signoton::Rheology
         0.5 * (binder.stress(x) * x);
       response.dissipation    = 0.;
       response.contact_strain = Tensor2<Number>();
+      response.plastic_strain = Tensor2<Number>();
       if constexpr (n_tensors > 0)
-        response.dissipation =
-          projection.stress * (trial.tensors[0] - accepted.tensors[0]);
+        {
+          response.plastic_strain = trial.tensors[0];
+          response.dissipation =
+            projection.stress * (trial.tensors[0] - accepted.tensors[0]);
+        }
       if constexpr (n_scalars > 0)
         {
           response.stored_energy += set.hardening_energy(trial.scalars[0]);
@@ -235,18 +241,6 @@ namespace Signoton::Rheology
     IsotropicScaling to_set;
     Set              set;
   };
-
-  /** Every law with a closed form. The choice is made once for a run of cells,
-   *  never inside the loop over their points. */
-  using Law =
-    std::variant<Elastic,
-                 SpringAndProjection<MisesSchleicherCone, Memory::none>,
-                 SpringAndProjection<PrincipalSet, Memory::none>,
-                 SpringAndProjection<MisesSchleicherCone, Memory::cylinder>,
-                 SpringAndProjection<VonMisesCylinder<false>, Memory::all>,
-                 SpringAndProjection<VonMisesCylinder<true>, Memory::all>,
-                 SpringAndProjection<MisesSchleicherCone, Memory::all>,
-                 SpringAndProjection<PrincipalSet, Memory::all>>;
 } // namespace Signoton::Rheology
 
 #endif

@@ -2,7 +2,7 @@
 #define signoton_rheology_material_h
 
 #include <signoton/base/scene_file.h>
-#include <signoton/rheology/law.h>
+#include <signoton/rheology/laws.h>
 
 #include <optional>
 
@@ -28,7 +28,7 @@ namespace Signoton::Rheology
     /** Check the constants against each other, and that the file gives all
      *  that the rheology needs and nothing that it ignores. */
     void
-    check(const SceneFile &file) const;
+    check(const SceneFile &file);
 
     /**
      * The law of the material.
@@ -42,7 +42,16 @@ namespace Signoton::Rheology
     double
     binder_ratio() const;
 
-    /** Moduli of the elastic spring. */
+    /** Refuse an ill-posed scheme, see there. */
+    void
+    require_stress_from_strain() const;
+
+    /** The scheme that the rheology names, with the constants filled in.
+     *  @param binder_ratio as in law() */
+    Scheme
+    scheme(const std::optional<double> &binder_ratio = {}) const;
+
+    /** Moduli of the springs, see spring_moduli(). */
     Moduli
     elasticity() const;
 
@@ -55,6 +64,9 @@ namespace Signoton::Rheology
 
     bool
     is_reversible() const;
+
+    bool
+    is_viscous() const;
 
     /** Whether a rigid contact confines the stress to a cone. */
     bool
@@ -80,12 +92,25 @@ namespace Signoton::Rheology
     std::vector<std::string>
     optional_keys() const;
 
+    /** Whether the ready scheme has an element in braces. */
+    bool
+    uses(const std::string &element) const;
+
+    bool
+    uses_set() const;
+
+    Moduli
+    spring() const;
+
     Moduli
     binder(const std::optional<double> &ratio) const;
 
-    /** Apex of the cone, the hydrostatic tensile strength $p_0$ in Pa. */
-    double
-    apex() const;
+    /** The text of what stands in braces in a ready scheme. */
+    std::string
+    element(const std::string &name, const std::optional<double> &ratio) const;
+
+    std::string
+    set_text() const;
 
     std::string rheology                    = "elastic";
     std::string admissible_set              = "mises schleicher";
@@ -104,6 +129,14 @@ namespace Signoton::Rheology
     double      binder_shear_modulus        = 0.;
     double      isotropic_hardening_modulus = 0.;
     double      kinematic_hardening_modulus = 0.;
+    double      bulk_viscosity              = 0.;
+    double      shear_viscosity             = 0.;
+    double      second_bulk_modulus         = 0.;
+    double      second_shear_modulus        = 0.;
+    double      gap                         = 0.;
+    // of check(): where the rheology stands, and schemes by name
+    std::string                        where;
+    std::map<std::string, std::string> definitions;
   };
 } // namespace Signoton::Rheology
 

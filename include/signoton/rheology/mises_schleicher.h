@@ -145,6 +145,13 @@ namespace Signoton::Rheology
       return share * deviator;
     }
 
+    /** The cone cut off by a cylinder at @p strength in Pa. */
+    MisesSchleicherCone
+    cut_at(const double strength) const
+    {
+      return {friction, apex, strength};
+    }
+
     double
     apex_tension() const
     {

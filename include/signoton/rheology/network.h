@@ -97,6 +97,19 @@ namespace Signoton::Rheology
     std::vector<Element>
     elements() const;
 
+    /** Where the contacts are on their cones, the most advanced counts; if all
+     *  are closed, where the hinges are on their sets. */
+    Region
+    region() const;
+
+    /** Strain of the parts of the whole, in series, that hold a contact. */
+    Vector6
+    contact_strain() const;
+
+    /** Strain of the parts that hold a hinge, but no contact. */
+    Vector6
+    plastic_strain() const;
+
     /** New memory, to be accepted or not. */
     const std::vector<Vector6> &
     trial_tensors() const
@@ -134,6 +147,7 @@ namespace Signoton::Rheology
       Moduli                    moduli; ///< as in Scheme
       /** In this time step; the metric of contacts and hinges. */
       Moduli stiffness;
+      bool   has_contact = false, has_hinge = false; ///< in its subtree
       /** Which remembered strain and scalar, or none. */
       int     memory = -1, hardening = -1;
       Vector6 strain{}, stress{};
@@ -177,6 +191,7 @@ namespace Signoton::Rheology
       Vector6               wave;       ///< $t$
       Vector6               admissible; ///< $\pi(t)$
       Matrix6               slope;      ///< $d\pi/dt$, symmetric
+      Region                region;
       double                hardening;  ///< new plastic shear
       double                correction; ///< of the potential by hardening
       Vector6               defect;     ///< $-F(t)$
@@ -270,7 +285,7 @@ namespace Signoton::Rheology
     Matrix6 compliance;
     /** N in all components, and with the stresses that are given. */
     FullMatrix<double> scattering, controlled;
-    /** Eigenvectors of the latter by columns, and one less its eigenvalues. */
+    /** Eigenvectors of the latter by rows, and one less its eigenvalues. */
     FullMatrix<double> modes;
     Vector<double>     stiff_part;
 

@@ -81,6 +81,12 @@ namespace Signoton::Rheology
         }
     }
 
+    bool
+    ignores_pressure() const
+    {
+      return !is_cone;
+    }
+
     double
     apex_tension() const
     {
@@ -215,6 +221,34 @@ namespace Signoton::Rheology
     double apex;
     double bound;
     bool   is_cone;
+  };
+
+  /**
+   * No principal stress below zero: fibers, which carry tension only. The
+   * mirror image of the set without tension.
+   */
+  class NoCompression
+  {
+  public:
+    static constexpr bool hardens = false;
+
+    /** See Projection. */
+    template <bool with_tangent, typename Number>
+    void
+    project(const Tensor2<Number> &trial,
+            const Moduli          &moduli,
+            Projection<Number>    &result) const
+    {
+      PrincipalSet::no_tension(0.).project<with_tangent>(
+        Tensor2<Number>(-trial), moduli, result);
+      result.stress *= -1.;
+    }
+
+    double
+    apex_tension() const
+    {
+      return 0.;
+    }
   };
 } // namespace Signoton::Rheology
 

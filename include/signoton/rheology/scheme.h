@@ -17,6 +17,7 @@ namespace Signoton::Rheology
   using AdmissibleSet = std::variant<HydrostaticSet,
                                      MisesSchleicherCone,
                                      PrincipalSet,
+                                     NoCompression,
                                      VonMisesCylinder<false>,
                                      VonMisesCylinder<true>>;
 
@@ -31,7 +32,8 @@ namespace Signoton::Rheology
    *                     damper(shear viscosity = 1e9)))
    *
    * Elements are
-   *  - `spring(bulk = , shear = )` or `spring(young = , poisson = )`, in Pa;
+   *  - `spring(bulk = , shear = )`, in Pa, one may be zero, or
+   *    `spring(young = , poisson = )`;
    *  - `damper(bulk viscosity = , shear viscosity = )`, in Pa s, one may be
    *    left out;
    *  - `contact(CONE, ...)`, rigid and without dissipation: its strain is
@@ -44,6 +46,7 @@ namespace Signoton::Rheology
    *  - `mises schleicher, friction = , cohesion = `;
    *  - `coulomb mohr, friction angle = , cohesion = `;
    *  - `no tension, tensile strength = `, contacts only;
+   *  - `no compression`, contacts only, for fibers;
    *  - `hydrostatic, tensile strength = ` (contact), `strength = ` (hinge);
    *  - `von mises, strength = , isotropic hardening = `, hinges only;
    *  - `tresca, strength = `, hinges only.

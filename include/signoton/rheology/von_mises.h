@@ -96,6 +96,13 @@ namespace Signoton::Rheology
       return (0.5 * hardening_modulus) * plastic_shear * plastic_shear;
     }
 
+    /** Initial shear strength in Pa. */
+    double
+    strength() const
+    {
+      return shear_strength;
+    }
+
   private:
     double shear_strength;
     double hardening_modulus;

@@ -77,7 +77,11 @@ namespace Signoton
   ExitStatus
   run_scene(const MPI_Comm &communicator, const Options &options);
 
-  /** A commented parameter file for an analysis. */
+  /** Drive one material point as the options say. */
+  ExitStatus
+  run_point(const MPI_Comm &communicator, const Options &options);
+
+  /** A commented parameter file for an analysis, or for a point. */
   std::string
   scene_template(const std::string &analysis);
 } // namespace Signoton

@@ -57,10 +57,18 @@ namespace Signoton
   inline Vector6
   scale(const double spherical, const double deviatoric, const Vector6 &v)
   {
-    const double mean = (spherical - deviatoric) * (v[0] + v[1] + v[2]) / 3.;
+    // The factors may differ by many powers of ten: no part of the spherical
+    // part is to be in the deviator, not even round-off.
+    const double mean = (v[0] + v[1] + v[2]) / 3.;
+    Vector6      deviator;
+    for (unsigned int c = 0; c < 6; ++c)
+      deviator[c] = v[c] - (c < 3 ? mean : 0.);
+    const double rest = (deviator[0] + deviator[1] + deviator[2]) / 3.;
     Vector6      result;
     for (unsigned int c = 0; c < 6; ++c)
-      result[c] = deviatoric * v[c] + (c < 3 ? mean : 0.);
+      result[c] = c < 3 ? deviatoric * (deviator[c] - rest) +
+                            spherical * (mean + rest) :
+                          deviatoric * deviator[c];
     return result;
   }
 

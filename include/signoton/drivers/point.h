@@ -1,0 +1,131 @@
+#ifndef signoton_drivers_point_h
+#define signoton_drivers_point_h
+
+#include <signoton/base/function.h>
+#include <signoton/rheology/material.h>
+#include <signoton/rheology/network.h>
+
+#include <array>
+#include <iosfwd>
+#include <optional>
+
+namespace Signoton
+{
+  /** A number that changes in time: an expression in t, or a table `t: value`
+   *  of points joined by straight lines. */
+  class Program
+  {
+  public:
+    /** @param where the place of the text, for messages */
+    Program(const std::string &text,
+            const Constants   &constants,
+            const std::string &where);
+
+    double
+    operator()(const double time) const;
+
+    /** Times of a table, where the rate jumps. */
+    const std::vector<double> &
+    turning_points() const
+    {
+      return times;
+    }
+
+  private:
+    std::shared_ptr<FunctionParser<1>> expression;
+    std::vector<double>                times, values;
+    std::string                        where;
+  };
+
+  /**
+   * One material point driven by strain, stress or both, component by
+   * component, with time steps that a tolerance controls: each is compared
+   * with two of half the size, and these are kept.
+   *
+   * Writes `point.csv`, a line a step, and with gnuplot the diagram
+   * `point.svg`; the script `point.gp` makes it again.
+   */
+  class PointDriver
+  {
+  public:
+    PointDriver(const MPI_Comm &communicator, const SceneFile &file);
+
+    /** Run to the end; the accepted lines are written in any case. */
+    ExitStatus
+    run();
+
+    /** Say what would run. */
+    std::string
+    explanation() const;
+
+    /** A commented parameter file. */
+    static void
+    print_template(std::ostream &out);
+
+    std::string directory;
+
+  private:
+    /** What is given for one component, in Mandel's order. */
+    struct Component
+    {
+      std::string            strain_text, stress_text;
+      std::optional<Program> program;
+      bool                   is_stress = false;
+      double                 factor    = 1.; ///< to Mandel's component
+    };
+
+    struct State
+    {
+      double               time = 0.;
+      std::vector<Vector6> tensors;
+      std::vector<double>  scalars;
+      Vector6              strain{}, stress{};
+      double               stored = 0., dissipated = 0., work = 0.;
+      unsigned int         iterations = 0, region = 0;
+    };
+
+    void
+    add_parameters();
+    void
+    interpret();
+    void
+    give(const unsigned int component,
+         const std::string &text,
+         const bool         is_stress,
+         const std::string &where);
+
+    /** One step from @p from; nothing if the local solver failed. */
+    std::optional<State>
+    step(const State &from, const double time_step);
+
+    double
+    difference(const State &a, const State &b) const;
+
+    void
+    record(const State &state);
+
+    void
+    write() const;
+    void
+    plot() const;
+
+    MPI_Comm                           communicator;
+    SceneFile                          file;
+    ParameterHandler                   handler;
+    std::string                        title, kind = "oedometer";
+    std::string                        strain_text, stress_text, constants_text;
+    double                             confining_pressure = 0.;
+    std::array<Component, 6>           components;
+    double                             start_time = 0., end_time = 1.;
+    double                             step_size = 0., tolerance = 1e-5;
+    std::string                        turning_text;
+    std::vector<double>                turning_points;
+    std::string                        horizontal, vertical;
+    std::optional<Rheology::Material>  material;
+    std::unique_ptr<Rheology::Network> network;
+    double                             strain_scale = 0., stress_scale = 0.;
+    std::vector<std::string>           lines;
+  };
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,620 @@
+#include <signoton/base/output_file.h>
+#include <signoton/drivers/point.h>
+#include <signoton/rheology/classification.h>
+
+#include <deal.II/base/conditional_ostream.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace Signoton
+{
+  using namespace Rheology;
+
+  namespace
+  {
+    const std::array<const char *, 6> component_names = {
+      {"xx", "yy", "zz", "xy", "xz", "yz"}};
+
+    /** Where they are in Mandel's order. */
+    const std::array<unsigned int, 6> mandel_index = [] {
+      std::array<unsigned int, 6> result{};
+      for (unsigned int c = 0; c < 6; ++c)
+        {
+          Tensor2<> unit;
+          unit.access_raw_entry(c) = 1.;
+          const Vector6 v          = to_mandel(unit);
+          result[c] = std::max_element(v.begin(), v.end()) - v.begin();
+        }
+      return result;
+    }();
+
+    const std::vector<std::string> columns = {
+      "time",         "strain xx",     "strain yy",     "strain zz",
+      "strain xy",    "strain xz",     "strain yz",     "stress xx",
+      "stress yy",    "stress zz",     "stress xy",     "stress xz",
+      "stress yz",    "volume strain", "shear strain",  "mean stress",
+      "shear stress", "work",          "stored energy", "dissipated energy",
+      "iterations",   "region"};
+
+    double
+    read_number(const std::string &text, const std::string &where)
+    {
+      double value = 0.;
+      try
+        {
+          value = Utilities::string_to_double(Utilities::trim(text));
+        }
+      catch (const ExceptionBase &)
+        {
+          throw UserError(where,
+                          "'" + text + "'",
+                          "a number",
+                          "tables look like '0: 0, 1: -5e-4, 3: -5e-4'");
+        }
+      return value;
+    }
+  } // namespace
+
+  Program::Program(const std::string &text,
+                   const Constants   &constants,
+                   const std::string &where)
+    : where(where)
+  {
+    const bool is_table = text.find(':') != std::string::npos &&
+                          text.find('?') == std::string::npos;
+    if (!is_table)
+      {
+        expression = make_function<1>({text}, constants, where);
+        return;
+      }
+    for (const std::string &item : Utilities::split_string_list(text, ','))
+      {
+        const auto colon = item.find(':');
+        if (colon == std::string::npos)
+          throw UserError(where,
+                          "'" + item + "'",
+                          "points 'time: value', separated by commas",
+                          "tables look like '0: 0, 1: -5e-4, 3: -5e-4'");
+        times.push_back(read_number(item.substr(0, colon), where));
+        values.push_back(read_number(item.substr(colon + 1), where));
+        if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
+          throw UserError(where,
+                          "'" + item + "' after the time " +
+                            Utilities::to_string(times[times.size() - 2]),
+                          "increasing times",
+                          "leave a short time for a jump");
+      }
+  }
+
+  double
+  Program::operator()(const double time) const
+  {
+    if (expression)
+      {
+        expression->set_time(time);
+        const double value = expression->value(Point<1>());
+        if (!std::isfinite(value))
+          throw UserError(where,
+                          "no finite value at t = " +
+                            Utilities::to_string(time),
+                          "an expression that is finite at all times",
+                          "look for divisions by zero and roots of negative "
+                          "numbers");
+        return value;
+      }
+    const auto next = std::lower_bound(times.begin(), times.end(), time);
+    if (next == times.begin())
+      return values.front();
+    if (next == times.end())
+      return values.back();
+    const std::size_t i    = next - times.begin();
+    const double      part = (time - times[i - 1]) / (times[i] - times[i - 1]);
+    return values[i - 1] + part * (values[i] - values[i - 1]);
+  }
+
+  PointDriver::PointDriver(const MPI_Comm &communicator, const SceneFile &file)
+    : communicator(communicator)
+    , file(file)
+  {
+    const auto names = file.subsections({"Materials"});
+    if (names.size() != 1)
+      throw UserError(file.where({"Materials"}),
+                      std::to_string(names.size()) + " materials",
+                      "one, the material of the point",
+                      "'subsection Materials', 'subsection sand', 'set "
+                      "Rheology = ...'");
+    material.emplace(names[0]);
+    add_parameters();
+    file.apply_to(handler);
+    interpret();
+  }
+
+  void
+  PointDriver::add_parameters()
+  {
+    handler.add_parameter("Title", title, "What the file shows.");
+    handler.enter_subsection("Materials");
+    handler.enter_subsection(material->name);
+    material->add_parameters(handler);
+    handler.leave_subsection();
+    handler.leave_subsection();
+    handler.enter_subsection("Schemes");
+    for (const auto &name : file.keys({"Schemes"}))
+      handler.declare_entry(name,
+                            "",
+                            Patterns::Anything(),
+                            "A scheme by name.");
+    handler.leave_subsection();
+
+    const std::string numbers =
+      "An expression in t and the constants, or a table 't: value, t: value' "
+      "with straight lines in between. ";
+    handler.enter_subsection("Program");
+    handler.add_parameter(
+      "Kind",
+      kind,
+      "oedometer: Strain or Stress is the component xx, all other strains are "
+      "zero. uniaxial: the component xx, all other stresses are zero. "
+      "triaxial: "
+      "the component xx, the stresses yy and zz are minus the confining "
+      "pressure. simple shear: the component xy, the stress yy is minus the "
+      "confining pressure, other strains are zero. hydrostatic: the volume "
+      "strain or the mean stress, no shear. components: each component by its "
+      "own key, strains are zero where nothing is given.",
+      Patterns::Selection(
+        "oedometer|uniaxial|triaxial|simple shear|hydrostatic|components"));
+    handler.add_parameter("Strain", strain_text, numbers);
+    handler.add_parameter("Stress", stress_text, numbers + "In Pa.");
+    handler.add_parameter("Confining pressure",
+                          confining_pressure,
+                          "In Pa, from the start on.",
+                          Patterns::Double(0.));
+    for (unsigned int c = 0; c < 6; ++c)
+      {
+        const std::string name = component_names[c];
+        handler.add_parameter("Strain " + name,
+                              components[mandel_index[c]].strain_text,
+                              numbers);
+        handler.add_parameter("Stress " + name,
+                              components[mandel_index[c]].stress_text,
+                              numbers + "In Pa.");
+      }
+    handler.add_parameter("Constants",
+                          constants_text,
+                          "For the expressions: 'r = 1e-3, T = 2'.");
+    handler.add_parameter("Start time", start_time, "In s.");
+    handler.add_parameter("End time", end_time, "In s.");
+    handler.add_parameter("Turning points",
+                          turning_text,
+                          "Times in s, separated by commas, that steps have to "
+                          "meet; those of tables are met anyway.");
+    handler.leave_subsection();
+
+    handler.enter_subsection("Time steps");
+    handler.add_parameter("Largest step",
+                          step_size,
+                          "In s; 0: a hundredth of the program.",
+                          Patterns::Double(0.));
+    handler.add_parameter("Tolerance",
+                          tolerance,
+                          "Error that a step may add to stress and strain, "
+                          "relative to the largest so far; 0: all steps are as "
+                          "large as they may be.",
+                          Patterns::Double(0., 1.));
+    handler.leave_subsection();
+
+    handler.enter_subsection("Output");
+    handler.add_parameter("Directory",
+                          directory,
+                          "Directory of the results; by default output/ and "
+                          "the name of the file.");
+    std::string choices = columns[0];
+    for (std::size_t c = 1; c < columns.size(); ++c)
+      choices += "|" + columns[c];
+    handler.add_parameter("Plot horizontal",
+                          horizontal,
+                          "Column of point.csv on the horizontal axis; by "
+                          "default the strain that is driven.",
+                          Patterns::Selection("|" + choices));
+    handler.add_parameter("Plot vertical",
+                          vertical,
+                          "Column on the vertical axis; by default its stress.",
+                          Patterns::Selection("|" + choices));
+    handler.leave_subsection();
+  }
+
+  void
+  PointDriver::give(const unsigned int component,
+                    const std::string &text,
+                    const bool         is_stress,
+                    const std::string &where)
+  {
+    Component &c = components[component];
+    c.program.emplace(text,
+                      parse_constants(constants_text,
+                                      file.where({"Program"}, "Constants")),
+                      where);
+    c.is_stress = is_stress;
+    turning_points.insert(turning_points.end(),
+                          c.program->turning_points().begin(),
+                          c.program->turning_points().end());
+  }
+
+  void
+  PointDriver::interpret()
+  {
+    const SceneFile::Path path   = {"Program"};
+    const auto            refuse = [&](const std::string &key,
+                            const std::string &found,
+                            const std::string &expected,
+                            const std::string &hint) {
+      throw UserError(file.where(path, key), found, expected, hint);
+    };
+    material->check(file);
+    for (unsigned int c = 0; c < 6; ++c)
+      components[c].factor = c < 3 ? 1. : std::sqrt(2.);
+
+    const bool by_component = kind == "components";
+    for (unsigned int c = 0; c < 6; ++c)
+      for (const bool is_stress : {false, true})
+        {
+          const std::string key =
+            std::string(is_stress ? "Stress " : "Strain ") + component_names[c];
+          const Component  &target = components[mandel_index[c]];
+          const std::string text =
+            is_stress ? target.stress_text : target.strain_text;
+          if (text.empty())
+            continue;
+          if (!by_component)
+            refuse(key,
+                   "'" + text + "' with Kind '" + kind + "'",
+                   "Strain or Stress, without a component",
+                   "or 'set Kind = components'");
+          if (target.program)
+            refuse(key,
+                   "both strain and stress of " +
+                     std::string(component_names[c]),
+                   "one of them",
+                   "the other is what the point answers");
+          give(mandel_index[c], text, is_stress, file.where(path, key));
+        }
+    if (by_component == (!strain_text.empty() || !stress_text.empty()) ||
+        (!strain_text.empty() && !stress_text.empty()))
+      refuse(strain_text.empty() ? "Stress" : "Strain",
+             by_component ? "Strain or Stress with Kind 'components'" :
+             strain_text.empty() && stress_text.empty() ?
+                            "neither Strain nor Stress" :
+                            "both Strain and Stress",
+             by_component ? "keys with a component, 'Strain xx'" :
+                            "one of them",
+             "for instance 'set Strain = 0: 0, 1: -1e-3, 2: 0'");
+    const bool is_shear = kind == "simple shear",
+               confined = kind == "triaxial" || is_shear;
+    if (file.has(path, "Confining pressure") && !confined)
+      refuse("Confining pressure",
+             "a value with Kind '" + kind + "'",
+             "Kind triaxial or simple shear",
+             "remove it, it would have no effect");
+    const bool        by_stress = strain_text.empty();
+    const std::string text      = by_stress ? stress_text : strain_text;
+    const std::string place = file.where(path, by_stress ? "Stress" : "Strain");
+    std::ostringstream side;
+    side.precision(17);
+    side << -confining_pressure;
+    if (kind == "hydrostatic")
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          give(c, text, by_stress, place);
+          components[c].factor = by_stress ? 1. : 1. / 3.;
+        }
+    else if (!by_component)
+      give(is_shear ? mandel_index[3] : 0, text, by_stress, place);
+    if (kind == "uniaxial" || kind == "triaxial")
+      for (unsigned int c = 1; c < (kind == "uniaxial" ? 6u : 3u); ++c)
+        give(c, side.str(), true, place);
+    if (is_shear)
+      give(1, side.str(), true, place);
+
+    if (!(end_time > start_time))
+      refuse("End time",
+             Utilities::to_string(end_time),
+             "a time after the start at " + Utilities::to_string(start_time),
+             "set it");
+    for (const auto &item : Utilities::split_string_list(turning_text, ','))
+      turning_points.push_back(
+        read_number(item, file.where(path, "Turning points")));
+    turning_points.push_back(end_time);
+    std::sort(turning_points.begin(), turning_points.end());
+    if (!(step_size > 0.))
+      step_size = (end_time - start_time) / 100.;
+
+    const std::string driven = kind == "hydrostatic" ? "volume strain" :
+                               is_shear              ? "strain xy" :
+                                                       "strain xx";
+    if (horizontal.empty())
+      horizontal = driven;
+    if (vertical.empty())
+      vertical = kind == "hydrostatic" ? "mean stress" :
+                 is_shear              ? "stress xy" :
+                                         "stress xx";
+    std::array<bool, 6> is_stress{};
+    for (unsigned int c = 0; c < 6; ++c)
+      is_stress[c] = components[c].program && components[c].is_stress;
+    if (is_stress == std::array<bool, 6>{})
+      material->require_stress_from_strain();
+    network = std::make_unique<Network>(material->scheme());
+    network->set_control(is_stress);
+  }
+
+  std::string
+  PointDriver::explanation() const
+  {
+    std::ostringstream out;
+    out << material->description() << "\n"
+        << "History: " << network->n_tensors() << " strain tensors and "
+        << network->n_scalars() << " numbers, "
+        << 8 * (6 * network->n_tensors() + network->n_scalars()) << " bytes\n";
+    return out.str();
+  }
+
+  std::optional<PointDriver::State>
+  PointDriver::step(const State &from, const double time_step)
+  {
+    State   to = from;
+    Vector6 given{};
+    to.time = from.time + time_step;
+    for (unsigned int c = 0; c < 6; ++c)
+      if (components[c].program)
+        given[c] = components[c].factor * (*components[c].program)(to.time);
+    network->set_time_step(time_step);
+    const Network::Step &found =
+      network->update(given, from.tensors.data(), from.scalars.data(), false);
+    if (!found.converged)
+      return {};
+    to.strain  = found.strain;
+    to.stress  = found.stress;
+    to.tensors = network->trial_tensors();
+    to.scalars = network->trial_scalars();
+    to.stored  = found.stored;
+    to.dissipated += found.dissipated;
+    // by the trapezoidal rule
+    const Vector6 change = add_scaled(to.strain, -1., from.strain);
+    to.work += 0.5 * dot(add_scaled(to.stress, 1., from.stress), change);
+    to.iterations = found.iterations;
+    to.region     = static_cast<unsigned int>(network->region());
+    return to;
+  }
+
+  double
+  PointDriver::difference(const State &a, const State &b) const
+  {
+    const auto relative = [](const Vector6 &u, const Vector6 &v, double scale) {
+      const Vector6 d = add_scaled(u, -1., v);
+      scale = std::max({scale, std::sqrt(dot(u, u)), std::sqrt(dot(v, v))});
+      return scale > 0. ? std::sqrt(dot(d, d)) / scale : 0.;
+    };
+    // rigid schemes have strains of round-off
+    const double least_strain = 1e-3 * stress_scale / network->stiffness();
+    return std::max(relative(a.strain,
+                             b.strain,
+                             std::max(strain_scale, least_strain)),
+                    relative(a.stress, b.stress, stress_scale));
+  }
+
+  void
+  PointDriver::record(const State &state)
+  {
+    strain_scale =
+      std::max(strain_scale, std::sqrt(dot(state.strain, state.strain)));
+    stress_scale =
+      std::max(stress_scale, std::sqrt(dot(state.stress, state.stress)));
+    const Tensor2<> strain = from_mandel(state.strain),
+                    stress = from_mandel(state.stress);
+    std::ostringstream line;
+    line.precision(12);
+    line << state.time;
+    for (const Tensor2<> &tensor : {strain, stress})
+      for (unsigned int c = 0; c < 6; ++c)
+        line << ", " << tensor.access_raw_entry(c);
+    line << ", " << trace(strain) << ", "
+         << 2. * shear_intensity(deviatoric_part(strain)) << ", "
+         << trace(stress) / 3. << ", "
+         << shear_intensity(deviatoric_part(stress)) << ", " << state.work
+         << ", " << state.stored << ", " << state.dissipated << ", "
+         << state.iterations << ", " << state.region << "\n";
+    lines.push_back(line.str());
+  }
+
+  void
+  PointDriver::write() const
+  {
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::filesystem::create_directories(directory);
+    std::string text = join(columns, ", ") + "\n";
+    for (const std::string &line : lines)
+      text += line;
+    write_file(communicator, directory + "/point.csv", text);
+    plot();
+  }
+
+  void
+  PointDriver::plot() const
+  {
+    const auto number = [](const std::string &column) {
+      return std::to_string(std::find(columns.begin(), columns.end(), column) -
+                            columns.begin() + 1);
+    };
+    const auto unit = [](const std::string &column) -> std::string {
+      return column == "time"                           ? " (s)" :
+             column.find("stress") != std::string::npos ? " (Pa)" :
+             column.find("energy") != std::string::npos || column == "work" ?
+                                                          " (J/m^3)" :
+                                                          "";
+    };
+    std::string shown = title;
+    for (char &c : shown)
+      if (c == '\'')
+        c = ' ';
+    write_file(communicator,
+               directory + "/point.gp",
+               "# gnuplot point.gp\n"
+               "set terminal svg size 480,380 enhanced font 'sans,12' "
+               "background 'white'\n"
+               "set output 'point.svg'\n"
+               "set datafile separator ','\n"
+               "set title '" +
+                 shown + "' noenhanced\nset xlabel '" + horizontal +
+                 unit(horizontal) + "'\nset ylabel '" + vertical +
+                 unit(vertical) +
+                 "'\nset grid\nset zeroaxis lt -1\nunset key\n"
+                 "set format '%g'\nset xtics rotate by -25\n"
+                 "set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n"
+                 "plot 'point.csv' skip 1 using " +
+                 number(horizontal) + ":" + number(vertical) +
+                 " with lines lw 2 lc rgb '#1f5fa8'\n");
+    if (Utilities::MPI::this_mpi_process(communicator) != 0)
+      return;
+    const std::string command =
+      "cd '" + directory + "' && gnuplot point.gp > /dev/null 2>&1";
+    if (directory.find('\'') != std::string::npos ||
+        std::system(command.c_str()) != 0)
+      std::cout << "No picture: gnuplot is not there, or could not draw; "
+                   "'gnuplot point.gp' in the directory of the results does "
+                   "it.\n";
+  }
+
+  ExitStatus
+  PointDriver::run()
+  {
+    ConditionalOStream screen(std::cout,
+                              Utilities::MPI::this_mpi_process(communicator) ==
+                                0);
+    screen << explanation();
+    State state;
+    state.tensors.resize(network->n_tensors(), Vector6{});
+    state.scalars.resize(network->n_scalars(), 0.);
+    state.time         = start_time;
+    const double least = 1e-9 * (end_time - start_time);
+    // a step over which a jump is taken, as when a damper strikes
+    const double jump = 1e-5 * (end_time - start_time);
+    // the answer to what is given at the start, at once: dampers stand still
+    state.time -= least;
+    unsigned int n_steps = 0, n_cut = 0, most_iterations = 0;
+    double       dt = step_size;
+    std::string  failure;
+    if (const auto first = step(state, least))
+      state = *first;
+    else
+      failure = "the state that the program gives at its start";
+    state.time = start_time;
+    record(state);
+    for (std::size_t turn = 0; failure.empty() && state.time < end_time;)
+      {
+        if (!(turning_points[turn] > state.time + least))
+          {
+            ++turn;
+            continue;
+          }
+        const double left = turning_points[turn] - state.time;
+        // whole steps to the turning point, of nearly the same size
+        const double         wanted = std::min(dt, step_size);
+        const double         h      = left / std::ceil(left / wanted - 1e-9);
+        std::optional<State> one, half, two;
+        double               error = 0.;
+        if (tolerance > 0.)
+          {
+            one  = step(state, h);
+            half = step(state, 0.5 * h);
+            if (half)
+              two = step(*half, 0.5 * h);
+            if (one && two)
+              error = difference(*one, *two);
+          }
+        else
+          two = step(state, h);
+        if (!two ||
+            (tolerance > 0. && (!one || (error > tolerance && h > jump))))
+          {
+            dt =
+              two && one ?
+                h * std::clamp(0.9 * std::sqrt(tolerance / error), 0.1, 0.7) :
+                0.25 * h;
+            ++n_cut;
+            if (!(dt > least))
+              {
+                std::ostringstream when;
+                when << "a state after t = " << state.time;
+                failure = when.str();
+              }
+            continue;
+          }
+        if (tolerance > 0.)
+          {
+            record(*half);
+            dt =
+              h * (error > 0. ?
+                     std::clamp(0.9 * std::sqrt(tolerance / error), 0.5, 2.) :
+                     2.);
+          }
+        state = *two;
+        if (turning_points[turn] - state.time < least)
+          state.time = turning_points[turn];
+        record(state);
+        ++n_steps;
+        most_iterations = std::max(most_iterations, state.iterations);
+      }
+    write();
+    screen << n_steps << " steps, " << n_cut
+           << " repeated with a smaller size; "
+           << "at most " << most_iterations << " local iterations\n"
+           << "Results: " << directory << "/point.csv, point.svg\n";
+    if (failure.empty())
+      return ExitStatus::completed;
+    screen << "No solution: the scheme has not got " << failure
+           << ", or more than one. The lines before are complete.\n"
+           << "  " << classification(material->scheme()) << "\n"
+           << "  try: a program that stays within the strength, or by strain "
+              "instead of stress\n";
+    return ExitStatus::no_equilibrium;
+  }
+
+  void
+  PointDriver::print_template(std::ostream &out)
+  {
+    SceneFile file;
+    file.set({"Materials", "sand"}, "Rheology", "elastic plastic granular");
+    file.set({"Materials", "sand"}, "Friction parameter", "0.5");
+    file.set({"Materials", "sand"}, "Shear strength", "1e5");
+    file.set({"Materials", "sand"}, "Bulk modulus", "1e8");
+    file.set({"Materials", "sand"}, "Shear modulus", "6e7");
+    file.set({"Program"}, "Kind", "triaxial");
+    file.set({"Program"}, "Strain", "0: 0, 1: -5e-3, 2: -3e-3");
+    file.set({"Program"}, "Confining pressure", "1e5");
+    file.set({"Program"}, "End time", "2");
+    PointDriver       driver(MPI_COMM_SELF, file);
+    std::stringstream text;
+    driver.handler.print_parameters(text, ParameterHandler::PRM);
+    // all keys are shown, those that the file sets are set
+    std::vector<std::string> section;
+    for (std::string line; std::getline(text, line);)
+      {
+        const std::string content = Utilities::trim(line);
+        if (content.rfind("subsection ", 0) == 0)
+          section.push_back(content.substr(11));
+        else if (content == "end")
+          section.pop_back();
+        const bool idle =
+          content.rfind("set ", 0) == 0 &&
+          !file.has(section,
+                    Utilities::trim(content.substr(4, content.find('=') - 4)));
+        out << (idle ? "# " + line : line) << "\n";
+      }
+  }
+} // namespace Signoton

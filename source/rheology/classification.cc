@@ -1,0 +1,365 @@
+#include <signoton/base/exceptions.h>
+#include <signoton/rheology/classification.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Signoton::Rheology
+{
+  namespace
+  {
+    using Kind = Scheme::Kind;
+
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    Parts
+    of_all(const std::vector<Scheme> &parts, Parts (*property)(const Scheme &))
+    {
+      Parts result{true, true};
+      for (const Scheme &part : parts)
+        {
+          const Parts p = property(part);
+          result.spherical &= p.spherical;
+          result.deviatoric &= p.deviatoric;
+        }
+      return result;
+    }
+
+    Parts
+    of_any(const std::vector<Scheme> &parts, Parts (*property)(const Scheme &))
+    {
+      Parts result{false, false};
+      for (const Scheme &part : parts)
+        {
+          const Parts p = property(part);
+          result.spherical |= p.spherical;
+          result.deviatoric |= p.deviatoric;
+        }
+      return result;
+    }
+
+    bool
+    is_group_of(const Scheme &scheme, const Kind kind)
+    {
+      return scheme.kind == kind;
+    }
+
+    bool
+    ignores_pressure(const Scheme &scheme)
+    {
+      return std::holds_alternative<VonMisesCylinder<false>>(scheme.set[0]) ||
+             std::holds_alternative<VonMisesCylinder<true>>(scheme.set[0]) ||
+             (scheme.kind == Kind::hinge &&
+              std::holds_alternative<PrincipalSet>(scheme.set[0]) &&
+              std::get<PrincipalSet>(scheme.set[0]).ignores_pressure());
+    }
+
+    double
+    in_series(const double a, const double b)
+    {
+      return !(a > 0.) || !(b > 0.) ? 0. : 1. / (1. / a + 1. / b);
+    }
+  } // namespace
+
+  Parts
+  stress_follows_from_strain(const Scheme &scheme)
+  {
+    switch (scheme.kind)
+      {
+        case Kind::spring:
+        case Kind::damper:
+          return {scheme.moduli.bulk > 0., scheme.moduli.shear > 0.};
+        case Kind::series:
+          return of_any(scheme.parts, stress_follows_from_strain);
+        case Kind::parallel:
+          return of_all(scheme.parts, stress_follows_from_strain);
+        default:
+          return {false, false};
+      }
+  }
+
+  Parts
+  strain_follows_from_stress(const Scheme &scheme)
+  {
+    switch (scheme.kind)
+      {
+        case Kind::spring:
+        case Kind::damper:
+          return {scheme.moduli.bulk > 0., scheme.moduli.shear > 0.};
+        case Kind::series:
+          return of_all(scheme.parts, strain_follows_from_stress);
+        case Kind::parallel:
+          return of_any(scheme.parts, strain_follows_from_stress);
+        case Kind::hinge:
+          return {ignores_pressure(scheme),
+                  std::holds_alternative<VonMisesCylinder<true>>(
+                    scheme.set[0])};
+        default:
+          return {false, false};
+      }
+  }
+
+  void
+  require_stress_from_strain(const Scheme &scheme, const std::string &where)
+  {
+    const Parts found = stress_follows_from_strain(scheme);
+    if (found)
+      return;
+    // the part in parallel that leaves it open, if there is one
+    if (scheme.kind == Kind::parallel)
+      for (const Scheme &part : scheme.parts)
+        require_stress_from_strain(part, where);
+    const std::string what = found.spherical  ? "its deviatoric stress" :
+                             found.deviatoric ? "its pressure" :
+                                                "its stress";
+    const std::string cure =
+      found.spherical  ? "damper(shear viscosity = ...)" :
+      found.deviatoric ? "damper(bulk viscosity = ...)" :
+                         "spring(bulk = ..., shear = ...)";
+    throw UserError(where,
+                    "an ill-posed scheme: in '" + scheme.text + "' " + what +
+                      " does not follow from its strain",
+                    "a spring or damper in series with every contact and "
+                    "hinge, or with the group they are in",
+                    "series(" + cure + ", " + scheme.text + ")");
+  }
+
+  bool
+  contains(const Scheme &scheme, const Kind kind)
+  {
+    return scheme.kind == kind || std::any_of(scheme.parts.begin(),
+                                              scheme.parts.end(),
+                                              [kind](const Scheme &part) {
+                                                return contains(part, kind);
+                                              });
+  }
+
+  namespace
+  {
+    /** Moduli where dampers, or contacts and hinges, are rigid or else left
+     *  out; none if all is left out. */
+    std::optional<Moduli>
+    moduli(const Scheme &scheme,
+           const bool    rigid_dampers,
+           const bool    rigid_sets)
+    {
+      if (scheme.kind == Kind::spring)
+        return scheme.moduli;
+      if (!scheme.is_group())
+        return (scheme.kind == Kind::damper ? rigid_dampers : rigid_sets) ?
+                 std::optional<Moduli>(Moduli{infinite, infinite}) :
+                 std::nullopt;
+      std::optional<Moduli> sum;
+      for (const Scheme &part : scheme.parts)
+        if (const auto m = moduli(part, rigid_dampers, rigid_sets))
+          {
+            if (!sum)
+              sum = m;
+            else if (scheme.kind == Kind::series)
+              sum = Moduli{in_series(sum->bulk, m->bulk),
+                           in_series(sum->shear, m->shear)};
+            else
+              sum = Moduli{sum->bulk + m->bulk, sum->shear + m->shear};
+          }
+      return sum;
+    }
+  } // namespace
+
+  Moduli
+  spring_moduli(const Scheme &scheme)
+  {
+    Moduli result{infinite, infinite};
+    for (const auto &[dampers, sets] : {std::pair(true, true),
+                                        std::pair(false, true),
+                                        std::pair(false, false)})
+      if (const auto m = moduli(scheme, dampers, sets))
+        {
+          if (!std::isfinite(result.bulk) || !(result.bulk > 0.))
+            result.bulk = m->bulk;
+          if (!std::isfinite(result.shear) || !(result.shear > 0.))
+            result.shear = m->shear;
+        }
+    return result;
+  }
+
+  Moduli
+  loosened_moduli(const Scheme &scheme)
+  {
+    switch (scheme.kind)
+      {
+        case Kind::spring:
+          return scheme.moduli;
+        case Kind::damper:
+          return {scheme.moduli.bulk > 0. ? infinite : 0.,
+                  scheme.moduli.shear > 0. ? infinite : 0.};
+        case Kind::contact:
+          return {0., 0.};
+        case Kind::hinge:
+          return ignores_pressure(scheme) ? Moduli{infinite, infinite} :
+                                            Moduli{0., 0.};
+        default:
+          break;
+      }
+    const bool series = is_group_of(scheme, Kind::series);
+    Moduli     result = series ? Moduli{infinite, infinite} : Moduli{0., 0.};
+    for (const Scheme &part : scheme.parts)
+      {
+        const Moduli m = loosened_moduli(part);
+        if (series)
+          result = {in_series(result.bulk, m.bulk),
+                    in_series(result.shear, m.shear)};
+        else
+          result = {result.bulk + m.bulk, result.shear + m.shear};
+      }
+    return result;
+  }
+
+  namespace
+  {
+    /** Groups in groups of the same kind are one group, and the springs of a
+     *  group are one spring. */
+    Scheme
+    simplified(const Scheme &scheme)
+    {
+      if (!scheme.is_group())
+        return scheme;
+      Scheme result;
+      result.kind = scheme.kind;
+      std::vector<Scheme> parts;
+      for (const Scheme &part : scheme.parts)
+        {
+          const Scheme simple = simplified(part);
+          if (simple.kind == scheme.kind)
+            parts.insert(parts.end(), simple.parts.begin(), simple.parts.end());
+          else
+            parts.push_back(simple);
+        }
+      int spring = -1;
+      for (const Scheme &part : parts)
+        if (part.kind != Kind::spring)
+          result.parts.push_back(part);
+        else if (spring < 0)
+          {
+            spring = result.parts.size();
+            result.parts.push_back(part);
+          }
+        else
+          {
+            Moduli &m = result.parts[spring].moduli;
+            if (scheme.kind == Kind::series)
+              m = {in_series(m.bulk, part.moduli.bulk),
+                   in_series(m.shear, part.moduli.shear)};
+            else
+              m = {m.bulk + part.moduli.bulk, m.shear + part.moduli.shear};
+          }
+      return result.parts.size() == 1 ? result.parts[0] : result;
+    }
+
+    const Scheme *
+    only(const Scheme &group, const Kind kind)
+    {
+      const Scheme *found = nullptr;
+      for (const Scheme &part : group.parts)
+        if (part.kind == kind)
+          {
+            if (found != nullptr)
+              return nullptr;
+            found = &part;
+          }
+      return found;
+    }
+
+    /** Spring, and a contact or hinge with or without a spring in parallel. */
+    std::optional<Law>
+    spring_and(const Moduli &spring,
+               const Scheme &element,
+               const Moduli &binder)
+    {
+      std::optional<Law> result;
+      if (element.gap > 0.)
+        return result;
+      std::visit(
+        [&](const auto &set) {
+          using Set = std::decay_t<decltype(set)>;
+          if constexpr (!std::is_same_v<Set, HydrostaticSet> &&
+                        !std::is_same_v<Set, NoCompression>)
+            {
+              constexpr bool cylinder =
+                std::is_same_v<Set, VonMisesCylinder<false>> ||
+                std::is_same_v<Set, VonMisesCylinder<true>>;
+              if (element.kind == Kind::hinge)
+                result =
+                  SpringAndProjection<Set, Memory::all>(spring, binder, set);
+              else if constexpr (!cylinder)
+                result =
+                  SpringAndProjection<Set, Memory::none>(spring, binder, set);
+            }
+        },
+        element.set[0]);
+      return result;
+    }
+  } // namespace
+
+  std::optional<Law>
+  closed_form(const Scheme &given)
+  {
+    const Scheme scheme = simplified(given);
+    if (scheme.kind == Kind::spring)
+      return Elastic(scheme.moduli);
+    const Scheme *spring = only(scheme, Kind::spring);
+    if (scheme.kind != Kind::series || spring == nullptr)
+      return {};
+    const Scheme *contact = only(scheme, Kind::contact),
+                 *hinge   = only(scheme, Kind::hinge),
+                 *group   = only(scheme, Kind::parallel);
+    const Moduli none{0., 0.};
+    if (scheme.parts.size() == 2)
+      {
+        if (contact != nullptr)
+          return spring_and(spring->moduli, *contact, none);
+        if (hinge != nullptr)
+          return spring_and(spring->moduli, *hinge, none);
+        if (group == nullptr || group->parts.size() != 2)
+          return {};
+        const Scheme *binder = only(*group, Kind::spring);
+        if (binder == nullptr)
+          return {};
+        const Scheme &other =
+          group->parts[group->parts[0].kind == Kind::spring ? 1 : 0];
+        if (other.set.empty())
+          return {};
+        return spring_and(spring->moduli, other, binder->moduli);
+      }
+    // a contact on a cone of revolution and a hinge on a cylinder
+    if (scheme.parts.size() == 3 && contact != nullptr && hinge != nullptr &&
+        !(contact->gap > 0.) &&
+        std::holds_alternative<MisesSchleicherCone>(contact->set[0]) &&
+        std::holds_alternative<VonMisesCylinder<false>>(hinge->set[0]))
+      return SpringAndProjection<MisesSchleicherCone, Memory::cylinder>(
+        spring->moduli,
+        none,
+        std::get<MisesSchleicherCone>(contact->set[0])
+          .cut_at(std::get<VonMisesCylinder<false>>(hinge->set[0]).strength()));
+    return {};
+  }
+
+  std::string
+  classification(const Scheme &scheme)
+  {
+    const auto in_words = [](const Parts &parts) -> std::string {
+      return parts            ? "yes" :
+             parts.spherical  ? "its volumetric part" :
+             parts.deviatoric ? "its deviatoric part" :
+                                "no";
+    };
+    const bool dissipative =
+      contains(scheme, Kind::damper) || contains(scheme, Kind::hinge);
+    return "stress from strain: " +
+           in_words(stress_follows_from_strain(scheme)) +
+           "; strain from stress: " +
+           in_words(strain_follows_from_stress(scheme)) +
+           "; symmetric tangent; " +
+           (dissipative ? "dissipative" : "reversible");
+  }
+} // namespace Signoton::Rheology
