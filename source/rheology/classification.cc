@@ -310,37 +310,45 @@ namespace Signoton::Rheology
     const Scheme *spring = only(scheme, Kind::spring);
     if (scheme.kind != Kind::series || spring == nullptr)
       return {};
-    const Scheme *contact = only(scheme, Kind::contact),
-                 *hinge   = only(scheme, Kind::hinge),
-                 *group   = only(scheme, Kind::parallel);
-    const Moduli none{0., 0.};
-    if (scheme.parts.size() == 2)
+    // what is in series with the spring, and a binder in parallel with that
+    std::vector<const Scheme *> rest;
+    for (const Scheme &part : scheme.parts)
+      if (&part != spring)
+        rest.push_back(&part);
+    Moduli binder{0., 0.};
+    if (rest.size() == 1 && rest[0]->kind == Kind::parallel)
       {
-        if (contact != nullptr)
-          return spring_and(spring->moduli, *contact, none);
-        if (hinge != nullptr)
-          return spring_and(spring->moduli, *hinge, none);
-        if (group == nullptr || group->parts.size() != 2)
+        const Scheme &group  = *rest[0];
+        const Scheme *second = only(group, Kind::spring);
+        if (second == nullptr || group.parts.size() != 2)
           return {};
-        const Scheme *binder = only(*group, Kind::spring);
-        if (binder == nullptr)
-          return {};
-        const Scheme &other =
-          group->parts[group->parts[0].kind == Kind::spring ? 1 : 0];
-        if (other.set.empty())
-          return {};
-        return spring_and(spring->moduli, other, binder->moduli);
+        binder              = second->moduli;
+        const Scheme &other = group.parts[&group.parts[0] == second ? 1 : 0];
+        rest                = {&other};
+        if (other.kind == Kind::series)
+          {
+            rest.clear();
+            for (const Scheme &part : other.parts)
+              rest.push_back(&part);
+          }
       }
+    if (rest.size() == 1 && !rest[0]->set.empty())
+      return spring_and(spring->moduli, *rest[0], binder);
     // a contact on a cone of revolution and a hinge on a cylinder
-    if (scheme.parts.size() == 3 && contact != nullptr && hinge != nullptr &&
-        !(contact->gap > 0.) &&
-        std::holds_alternative<MisesSchleicherCone>(contact->set[0]) &&
-        std::holds_alternative<VonMisesCylinder<false>>(hinge->set[0]))
+    if (rest.size() != 2)
+      return {};
+    if (rest[0]->kind != Kind::contact)
+      std::swap(rest[0], rest[1]);
+    const Scheme &contact = *rest[0], &hinge = *rest[1];
+    if (contact.kind == Kind::contact && hinge.kind == Kind::hinge &&
+        !(contact.gap > 0.) &&
+        std::holds_alternative<MisesSchleicherCone>(contact.set[0]) &&
+        std::holds_alternative<VonMisesCylinder<false>>(hinge.set[0]))
       return SpringAndProjection<MisesSchleicherCone, Memory::cylinder>(
         spring->moduli,
-        none,
-        std::get<MisesSchleicherCone>(contact->set[0])
-          .cut_at(std::get<VonMisesCylinder<false>>(hinge->set[0]).strength()));
+        binder,
+        std::get<MisesSchleicherCone>(contact.set[0])
+          .cut_at(std::get<VonMisesCylinder<false>>(hinge.set[0]).strength()));
     return {};
   }
 

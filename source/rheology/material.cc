@@ -4,8 +4,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <charconv>
 #include <cmath>
-#include <sstream>
 
 namespace Signoton::Rheology
 {
@@ -17,6 +17,15 @@ namespace Signoton::Rheology
     contains(const std::vector<std::string> &list, const std::string &item)
     {
       return std::find(list.begin(), list.end(), item) != list.end();
+    }
+
+    /** The shortest text that is read as the same number. */
+    std::string
+    exact(const double value)
+    {
+      std::array<char, 32> text;
+      return {text.data(),
+              std::to_chars(text.data(), text.data() + text.size(), value).ptr};
     }
   } // namespace
 
@@ -198,10 +207,17 @@ namespace Signoton::Rheology
   }
 
   bool
+  Material::may_be_bound() const
+  {
+    return uses("bound contact") || uses("bound cone and hinge");
+  }
+
+  bool
   Material::uses_set() const
   {
-    return uses("contact") || uses("bound contact") || uses("cone") ||
-           uses("contact with gap") || uses("hinge on set");
+    return uses("contact") || uses("bound contact") ||
+           uses("bound cone and hinge") || uses("contact with gap") ||
+           uses("hinge on set");
   }
 
   std::vector<std::string>
@@ -210,17 +226,18 @@ namespace Signoton::Rheology
     std::vector<std::string> keys = {"Rheology"};
     if (uses_set())
       {
-        if (!uses("cone"))
+        if (!uses("bound cone and hinge"))
           keys.emplace_back("Admissible set");
         if (admissible_set == "mises schleicher")
           keys.emplace_back("Friction parameter");
         else if (admissible_set == "coulomb mohr")
           keys.emplace_back("Friction angle");
       }
-    if (uses("hinge") || (uses_set() && (admissible_set == "von mises" ||
-                                         admissible_set == "tresca")))
+    if (uses("hinge") || uses("bound cone and hinge") ||
+        (uses_set() &&
+         (admissible_set == "von mises" || admissible_set == "tresca")))
       keys.emplace_back("Shear strength");
-    if (uses("bound contact") && binder_kind == "moduli")
+    if (may_be_bound() && binder_kind == "moduli")
       {
         keys.emplace_back("Binder bulk modulus");
         keys.emplace_back("Binder shear modulus");
@@ -245,7 +262,7 @@ namespace Signoton::Rheology
       for (const char *key :
            {"Bulk modulus", "Shear modulus", "Young modulus", "Poisson ratio"})
         keys.emplace_back(key);
-    if (uses("cone"))
+    if (uses("bound cone and hinge"))
       keys.emplace_back("Admissible set");
     if (uses_set() && !uses("contact with gap"))
       {
@@ -255,7 +272,7 @@ namespace Signoton::Rheology
         if (admissible_set == "no tension")
           keys.emplace_back("Tensile strength");
       }
-    if (uses("bound contact"))
+    if (may_be_bound())
       {
         keys.emplace_back("Binder");
         if (binder_kind == "proportional")
@@ -352,7 +369,7 @@ namespace Signoton::Rheology
       allow_sets({"mises schleicher", "coulomb mohr", "no tension"});
     if (uses("hinge on set") && !uses("contact with gap"))
       allow_sets({"mises schleicher", "coulomb mohr", "von mises", "tresca"});
-    if (uses("cone"))
+    if (uses("bound cone and hinge"))
       allow_sets({"mises schleicher"});
 
     if (contains(required, "Friction angle") && friction_angle < 1.6)
@@ -417,63 +434,56 @@ namespace Signoton::Rheology
   std::string
   Material::set_text() const
   {
-    std::ostringstream text;
-    text.precision(17);
-    text << admissible_set << ", ";
+    std::string text = admissible_set + ", ";
     if (admissible_set == "mises schleicher")
-      text << "friction = " << friction_parameter;
+      text += "friction = " + exact(friction_parameter);
     else if (admissible_set == "coulomb mohr")
-      text << "friction angle = " << friction_angle;
+      text += "friction angle = " + exact(friction_angle);
     else if (admissible_set == "no tension")
-      text << "tensile strength = " << tensile_strength;
+      text += "tensile strength = " + exact(tensile_strength);
     else
-      text << "strength = " << shear_strength;
+      text += "strength = " + exact(shear_strength);
     if (cohesion > 0.)
-      text << ", cohesion = " << cohesion;
+      text += ", cohesion = " + exact(cohesion);
     if (isotropic_hardening_modulus > 0.)
-      text << ", isotropic hardening = " << isotropic_hardening_modulus;
-    return text.str();
+      text += ", isotropic hardening = " + exact(isotropic_hardening_modulus);
+    return text;
   }
 
   std::string
   Material::element(const std::string           &name,
                     const std::optional<double> &ratio) const
   {
-    std::ostringstream text;
-    text.precision(17);
-    const auto spring_text = [&](const Moduli &moduli) {
-      text << "spring(bulk = " << moduli.bulk << ", shear = " << moduli.shear
-           << ")";
+    const auto spring_text = [](const Moduli &moduli) {
+      return "spring(bulk = " + exact(moduli.bulk) +
+             ", shear = " + exact(moduli.shear) + ")";
     };
     if (name == "spring")
-      spring_text(spring());
-    else if (name == "second spring")
-      spring_text({second_bulk_modulus, second_shear_modulus});
-    else if (name == "damper")
-      text << "damper(bulk viscosity = " << bulk_viscosity
-           << ", shear viscosity = " << shear_viscosity << ")";
-    else if (name == "hinge")
-      text << "hinge(von mises, strength = " << shear_strength << ")";
-    else if (name == "contact with gap")
-      text << "contact(" << set_text() << ", gap = " << gap << ")";
-    else
-      {
-        const bool   is_hinge = name == "hinge on set";
-        const Moduli parallel =
-          is_hinge ? Moduli{0., kinematic_hardening_modulus} :
-          name == "bound contact" && binder_kind != "none" ? binder(ratio) :
-                                                             Moduli{0., 0.};
-        const bool with_spring = parallel.bulk > 0. || parallel.shear > 0.;
-        text << (with_spring ? "parallel(" : "")
-             << (is_hinge ? "hinge(" : "contact(") << set_text() << ")";
-        if (with_spring)
-          {
-            text << ", ";
-            spring_text(parallel);
-            text << ")";
-          }
-      }
-    return text.str();
+      return spring_text(spring());
+    if (name == "second spring")
+      return spring_text({second_bulk_modulus, second_shear_modulus});
+    if (name == "damper")
+      return "damper(bulk viscosity = " + exact(bulk_viscosity) +
+             ", shear viscosity = " + exact(shear_viscosity) + ")";
+    if (name == "hinge")
+      return "hinge(von mises, strength = " + exact(shear_strength) + ")";
+    if (name == "contact with gap")
+      return "contact(" + set_text() + ", gap = " + exact(gap) + ")";
+
+    const bool        is_hinge = name == "hinge on set";
+    const std::string set =
+                        (is_hinge ? "hinge(" : "contact(") + set_text() + ")",
+                      confined = name == "bound cone and hinge" ?
+                                   "series(" + set + ", " +
+                                     element("hinge", ratio) + ")" :
+                                   set;
+    const Moduli parallel = is_hinge ? Moduli{0., kinematic_hardening_modulus} :
+                            may_be_bound() && binder_kind != "none" ?
+                                       binder(ratio) :
+                                       Moduli{0., 0.};
+    return parallel.bulk > 0. || parallel.shear > 0. ?
+             "parallel(" + confined + ", " + spring_text(parallel) + ")" :
+             confined;
   }
 
   Scheme

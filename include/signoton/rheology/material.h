@@ -99,6 +99,9 @@ namespace Signoton::Rheology
     bool
     uses_set() const;
 
+    bool
+    may_be_bound() const;
+
     Moduli
     spring() const;
 
