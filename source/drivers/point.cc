@@ -1,4 +1,5 @@
 #include <signoton/base/output_file.h>
+#include <signoton/base/scene_template.h>
 #include <signoton/drivers/point.h>
 #include <signoton/rheology/classification.h>
 
@@ -42,82 +43,7 @@ namespace Signoton
       "stress yz",    "volume strain", "shear strain",  "mean stress",
       "shear stress", "work",          "stored energy", "dissipated energy",
       "iterations",   "region"};
-
-    double
-    read_number(const std::string &text, const std::string &where)
-    {
-      double value = 0.;
-      try
-        {
-          value = Utilities::string_to_double(Utilities::trim(text));
-        }
-      catch (const ExceptionBase &)
-        {
-          throw UserError(where,
-                          "'" + text + "'",
-                          "a number",
-                          "tables look like '0: 0, 1: -5e-4, 3: -5e-4'");
-        }
-      return value;
-    }
   } // namespace
-
-  Program::Program(const std::string &text,
-                   const Constants   &constants,
-                   const std::string &where)
-    : where(where)
-  {
-    const bool is_table = text.find(':') != std::string::npos &&
-                          text.find('?') == std::string::npos;
-    if (!is_table)
-      {
-        expression = make_function<1>({text}, constants, where);
-        return;
-      }
-    for (const std::string &item : Utilities::split_string_list(text, ','))
-      {
-        const auto colon = item.find(':');
-        if (colon == std::string::npos)
-          throw UserError(where,
-                          "'" + item + "'",
-                          "points 'time: value', separated by commas",
-                          "tables look like '0: 0, 1: -5e-4, 3: -5e-4'");
-        times.push_back(read_number(item.substr(0, colon), where));
-        values.push_back(read_number(item.substr(colon + 1), where));
-        if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
-          throw UserError(where,
-                          "'" + item + "' after the time " +
-                            Utilities::to_string(times[times.size() - 2]),
-                          "increasing times",
-                          "leave a short time for a jump");
-      }
-  }
-
-  double
-  Program::operator()(const double time) const
-  {
-    if (expression)
-      {
-        expression->set_time(time);
-        const double value = expression->value(Point<1>());
-        if (!std::isfinite(value))
-          throw UserError(where,
-                          "no finite value at t = " +
-                            Utilities::to_string(time),
-                          "an expression that is finite at all times",
-                          "look for divisions by zero and roots of negative "
-                          "numbers");
-        return value;
-      }
-    const auto next = std::lower_bound(times.begin(), times.end(), time);
-    if (next == times.begin())
-      return values.front();
-    if (next == times.end())
-      return values.back();
-    const std::size_t i    = next - times.begin();
-    const double      part = (time - times[i - 1]) / (times[i] - times[i - 1]);
-    return values[i - 1] + part * (values[i] - values[i - 1]);
-  }
 
   PointDriver::PointDriver(const MPI_Comm &communicator, const SceneFile &file)
     : communicator(communicator)
@@ -598,23 +524,7 @@ namespace Signoton
     file.set({"Program"}, "Strain", "0: 0, 1: -5e-3, 2: -3e-3");
     file.set({"Program"}, "Confining pressure", "1e5");
     file.set({"Program"}, "End time", "2");
-    PointDriver       driver(MPI_COMM_SELF, file);
-    std::stringstream text;
-    driver.handler.print_parameters(text, ParameterHandler::PRM);
-    // all keys are shown, those that the file sets are set
-    std::vector<std::string> section;
-    for (std::string line; std::getline(text, line);)
-      {
-        const std::string content = Utilities::trim(line);
-        if (content.rfind("subsection ", 0) == 0)
-          section.push_back(content.substr(11));
-        else if (content == "end")
-          section.pop_back();
-        const bool idle =
-          content.rfind("set ", 0) == 0 &&
-          !file.has(section,
-                    Utilities::trim(content.substr(4, content.find('=') - 4)));
-        out << (idle ? "# " + line : line) << "\n";
-      }
+    PointDriver driver(MPI_COMM_SELF, file);
+    Signoton::print_template(out, driver.handler, file);
   }
 } // namespace Signoton

@@ -1,3 +1,4 @@
+#include <signoton/base/scene_template.h>
 #include <signoton/drivers/point.h>
 #include <signoton/drivers/statics.h>
 #include <signoton/scene/requirements.h>
@@ -318,24 +319,7 @@ namespace Signoton
     file.set({"Boundaries", "left"}, "Symmetry", "true");
     file.set({"Boundaries", "top"}, "Pressure", "1e5*t");
     Scene scene(MPI_COMM_SELF, file);
-    // Not every key goes with every rheology: all are shown, some are set.
-    const SceneFile::Path    material = {"Materials", "sand"};
-    std::vector<std::string> section;
-    std::stringstream        text;
-    scene.handler.print_parameters(text, ParameterHandler::PRM);
-    for (std::string line; std::getline(text, line);)
-      {
-        const std::string content = Utilities::trim(line);
-        if (content.rfind("subsection ", 0) == 0)
-          section.push_back(content.substr(11));
-        else if (content == "end")
-          section.pop_back();
-        const bool idle =
-          content.rfind("set ", 0) == 0 && section == material &&
-          !file.has(material,
-                    Utilities::trim(content.substr(4, content.find('=') - 4)));
-        out << (idle ? "    # " + content : line) << "\n";
-      }
+    Signoton::print_template(out, scene.handler, file, {"Materials", "sand"});
   }
 
   namespace

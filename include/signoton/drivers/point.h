@@ -1,7 +1,7 @@
 #ifndef signoton_drivers_point_h
 #define signoton_drivers_point_h
 
-#include <signoton/base/function.h>
+#include <signoton/drivers/program.h>
 #include <signoton/rheology/material.h>
 #include <signoton/rheology/network.h>
 
@@ -11,32 +11,6 @@
 
 namespace Signoton
 {
-  /** A number that changes in time: an expression in t, or a table `t: value`
-   *  of points joined by straight lines. */
-  class Program
-  {
-  public:
-    /** @param where the place of the text, for messages */
-    Program(const std::string &text,
-            const Constants   &constants,
-            const std::string &where);
-
-    double
-    operator()(const double time) const;
-
-    /** Times of a table, where the rate jumps. */
-    const std::vector<double> &
-    turning_points() const
-    {
-      return times;
-    }
-
-  private:
-    std::shared_ptr<FunctionParser<1>> expression;
-    std::vector<double>                times, values;
-    std::string                        where;
-  };
-
   /**
    * One material point driven by strain, stress or both, component by
    * component, with time steps that a tolerance controls: each is compared
