@@ -135,8 +135,8 @@ namespace Signoton
         if (!error.empty())
           throw UserError(where,
                           "'" + expression + "' (" + error + ")",
-                          "an expression in " +
-                            (dim == 1 ? "t" : variables) + " and the " +
+                          "an expression in " + (dim == 1 ? "t" : variables) +
+                            " and the " +
                             (dim == 1 ? "Constants" :
                                         "constants of 'Loads / Constants'"),
                           "see the function parser of deal.II and muparser");

@@ -66,9 +66,9 @@ namespace Signoton
     const double rest = (deviator[0] + deviator[1] + deviator[2]) / 3.;
     Vector6      result;
     for (unsigned int c = 0; c < 6; ++c)
-      result[c] = c < 3 ? deviatoric * (deviator[c] - rest) +
-                            spherical * (mean + rest) :
-                          deviatoric * deviator[c];
+      result[c] =
+        c < 3 ? deviatoric * (deviator[c] - rest) + spherical * (mean + rest) :
+                deviatoric * deviator[c];
     return result;
   }
 
