@@ -206,6 +206,7 @@ namespace Signoton::Testing
     Step(const Law                  &law,
          const Tensor2<>            &strain,
          const History<Law, double> &accepted)
+      : history(make_history<double>(law))
     {
       law.template update<all>(strain, accepted, history, response);
     }

@@ -315,6 +315,57 @@ namespace
             strength};
   }
 
+  Candidate<NoCompression>
+  no_compression()
+  {
+    return {
+      NoCompression(),
+      [](const Tensor2<> &s) { return -independent_spectrum(s).values[2]; },
+      [](const Tensor2<> &q) { return independent_spectrum(q).values[0]; },
+      [](const Tensor2<> &, const double) { return 0.; },
+      [](const Tensor2<> &t, const Moduli &moduli) {
+        return -project_planes(-t, moduli, 0., 0., 0.);
+      },
+      0.,
+      0.};
+  }
+
+  Candidate<HydrostaticSet>
+  hydrostatic(const double tension, const double compression)
+  {
+    return {HydrostaticSet(tension, compression),
+            [=](const Tensor2<> &s) {
+              return std::max(-tension - pressure(s),
+                              pressure(s) - compression);
+            },
+            [=](const Tensor2<> &q) {
+              const double shear = deviatoric_part(q).norm();
+              return std::isfinite(compression) ? shear :
+                                                  std::max(shear, -trace(q));
+            },
+            [=](const Tensor2<> &q, const double force) {
+              return trace(q) *
+                     (trace(q) > 0. ? tension : -std::min(compression, force));
+            },
+            [=](const Tensor2<> &t, const Moduli &moduli) {
+              std::vector<std::array<Real, 1>> planes = {{{-1.}}};
+              std::vector<Real>                bounds = {Real(tension)};
+              if (std::isfinite(compression))
+                {
+                  planes.push_back({{1.}});
+                  bounds.push_back(compression);
+                }
+              const auto p = enumerate_active_sets<1>(planes,
+                                                      bounds,
+                                                      {{{{moduli.bulk}}}},
+                                                      {{pressure(t)}});
+              return deviatoric_part(t) -
+                     double(p[0]) * unit_symmetric_tensor<3>();
+            },
+            tension,
+            0.};
+  }
+
   /** Principal values with every kind of repetition. */
   Tensor2<>
   nearly_repeated(Random &random)
@@ -502,6 +553,15 @@ main()
                     });
   passed &= sweep("no tension", [](const double scale, Random &r) {
     return coulomb(90., cohesion(scale, r));
+  });
+  passed &= sweep("no compression",
+                  [](const double, Random &) { return no_compression(); });
+  passed &= sweep("hydrostatic contact", [](const double scale, Random &r) {
+    return hydrostatic(cohesion(scale, r),
+                       std::numeric_limits<double>::infinity());
+  });
+  passed &= sweep("hydrostatic hinge", [](const double scale, Random &r) {
+    return hydrostatic(cohesion(scale, r), scale * r.power_of_ten(-1., 1.));
   });
   passed &= sweep("Tresca", [](const double scale, Random &r) {
     return tresca(scale * r.power_of_ten(-1., 1.));
