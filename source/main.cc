@@ -79,7 +79,9 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
             refuse("'" + word + "' besides '" + before + "'", "one of them");
           return value;
         };
-        if (word == "--explain" || word == "--validate")
+        if (word == "point" && !options.point)
+          options.point = true;
+        else if (word == "--explain" || word == "--validate")
           action = once(action, word);
         else if (word == "--set")
           options.overrides.push_back(next());
@@ -126,11 +128,10 @@ main(int argc, char **argv)
       const std::vector<std::string> arguments(argv + 1, argv + argc);
       if (handle_information(arguments, is_root))
         return 0;
-      if (!arguments.empty() && arguments[0] == "point")
-        return static_cast<int>(
-          run_point(MPI_COMM_WORLD,
-                    parse({arguments.begin() + 1, arguments.end()})));
-      return static_cast<int>(run_scene(MPI_COMM_WORLD, parse(arguments)));
+      const Options options = parse(arguments);
+      return static_cast<int>(options.point ?
+                                run_point(MPI_COMM_WORLD, options) :
+                                run_scene(MPI_COMM_WORLD, options));
     }
   catch (const UserError &error)
     {

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -357,12 +358,39 @@ namespace Signoton
     }
   } // namespace
 
+  namespace
+  {
+    /** The file with what the command line overrides.
+     *  @param foreign a section that only the other kind of file has
+     *  @param try_command what to run such a file by */
+    SceneFile
+    read(const Options     &options,
+         const std::string &foreign,
+         const std::string &kind,
+         const std::string &try_command)
+    {
+      SceneFile file = SceneFile::read(options.scene_file);
+      for (const auto &assignment : options.overrides)
+        file.override_entry(assignment);
+      const auto sections = file.subsections({});
+      if (std::find(sections.begin(), sections.end(), foreign) !=
+          sections.end())
+        throw UserError(file.where({foreign}),
+                        "the section '" + foreign + "'",
+                        kind,
+                        "'" + try_command + " " + options.scene_file + "'");
+      return file;
+    }
+  } // namespace
+
   ExitStatus
   run_scene(const MPI_Comm &communicator, const Options &options)
   {
-    SceneFile file = SceneFile::read(options.scene_file);
-    for (const auto &assignment : options.overrides)
-      file.override_entry(assignment);
+    SceneFile file =
+      read(options,
+           "Program",
+           "a scene with a body; this file is for one material point",
+           "signoton point");
     if (!options.output_directory.empty())
       file.set({"Output"}, "Directory", options.output_directory);
     const SceneFile::Path geometry = {"Geometry"};
@@ -389,9 +417,11 @@ namespace Signoton
   ExitStatus
   run_point(const MPI_Comm &communicator, const Options &options)
   {
-    SceneFile file = SceneFile::read(options.scene_file);
-    for (const auto &assignment : options.overrides)
-      file.override_entry(assignment);
+    SceneFile file =
+      read(options,
+           "Geometry",
+           "one material point; this file is a scene with a body",
+           "signoton");
     PointDriver point(communicator, file);
     if (!options.output_directory.empty())
       point.directory = options.output_directory;

@@ -27,6 +27,7 @@ expect() {
 expect 0 'mpirun -np N signoton' --help
 expect 0 'deal.II' --version
 expect 0 'set Rheology' --template statics
+expect 0 'subsection Program' --template point
 expect 2 'statics' --template statistics
 expect 2 'no scene file'
 expect 2 "unknown option '--explian'" --explian "$scene"
@@ -46,6 +47,11 @@ expect 0 'The scene is valid' --validate template.prm
 expect 0 'Statistics by step' template.prm
 expect 0 'The scene is valid' --validate "$scene" --set 'Discretization/Degree=1'
 expect 2 'Materials' --validate "$scene" --set 'Materials/sand/Bulk modulus=-1'
+"$signoton" --template point >point_template.prm
+expect 0 'point.csv' point point_template.prm
+expect 2 "'signoton point " "$source/prm/point/triaxial.prm"
+expect 2 "'signoton " point "$scene"
+expect 0 'closed form' --explain point "$source/prm/point/triaxial.prm"
 
 for shipped in "$source"/prm/*.prm; do
   expect 0 'Memory forecast' --explain "$shipped"

@@ -18,6 +18,7 @@ namespace Signoton
     };
 
     Action                   action = Action::run;
+    bool                     point  = false; ///< one material point, no body
     std::string              scene_file;
     std::string              output_directory;
     std::string              resume_directory;
