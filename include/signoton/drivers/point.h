@@ -75,13 +75,16 @@ namespace Signoton
     double
     difference(const State &a, const State &b) const;
 
+    // point_output.cc
     void
     record(const State &state);
-
     void
     write() const;
     void
     plot() const;
+
+    /** Of the table, in the order of record(). */
+    static const std::vector<std::string> columns;
 
     MPI_Comm                           communicator;
     SceneFile                          file;

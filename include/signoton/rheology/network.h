@@ -142,6 +142,13 @@ namespace Signoton::Rheology
   private:
     struct Node
     {
+      /** Springs and dampers; groups are not asked. */
+      bool
+      is_linear() const
+      {
+        return kind == Scheme::Kind::spring || kind == Scheme::Kind::damper;
+      }
+
       Scheme::Kind              kind;
       std::vector<unsigned int> parts;
       Moduli                    moduli; ///< as in Scheme

@@ -1,0 +1,108 @@
+#include <signoton/base/output_file.h>
+#include <signoton/drivers/point.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+// The table and the diagram of a material point.
+
+namespace Signoton
+{
+  using namespace Rheology;
+
+  const std::vector<std::string> PointDriver::columns = {
+    "time",         "strain xx",     "strain yy",     "strain zz",
+    "strain xy",    "strain xz",     "strain yz",     "stress xx",
+    "stress yy",    "stress zz",     "stress xy",     "stress xz",
+    "stress yz",    "volume strain", "shear strain",  "mean stress",
+    "shear stress", "work",          "stored energy", "dissipated energy",
+    "iterations",   "region"};
+
+  void
+  PointDriver::record(const State &state)
+  {
+    strain_scale =
+      std::max(strain_scale, std::sqrt(dot(state.strain, state.strain)));
+    stress_scale =
+      std::max(stress_scale, std::sqrt(dot(state.stress, state.stress)));
+    const Tensor2<> strain = from_mandel(state.strain),
+                    stress = from_mandel(state.stress);
+    std::ostringstream line;
+    line.precision(12);
+    line << state.time;
+    for (const Tensor2<> &tensor : {strain, stress})
+      for (unsigned int c = 0; c < 6; ++c)
+        line << ", " << tensor.access_raw_entry(c);
+    line << ", " << trace(strain) << ", "
+         << 2. * shear_intensity(deviatoric_part(strain)) << ", "
+         << trace(stress) / 3. << ", "
+         << shear_intensity(deviatoric_part(stress)) << ", " << state.work
+         << ", " << state.stored << ", " << state.dissipated << ", "
+         << state.iterations << ", " << state.region << "\n";
+    lines.push_back(line.str());
+  }
+
+  void
+  PointDriver::write() const
+  {
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::filesystem::create_directories(directory);
+    std::string text = join(columns, ", ") + "\n";
+    for (const std::string &line : lines)
+      text += line;
+    write_file(communicator, directory + "/point.csv", text);
+    plot();
+  }
+
+  void
+  PointDriver::plot() const
+  {
+    const auto number = [](const std::string &column) {
+      return std::to_string(std::find(columns.begin(), columns.end(), column) -
+                            columns.begin() + 1);
+    };
+    const auto unit = [](const std::string &column) -> std::string {
+      return column == "time"                           ? " (s)" :
+             column.find("stress") != std::string::npos ? " (Pa)" :
+             column.find("energy") != std::string::npos || column == "work" ?
+                                                          " (J/m^3)" :
+                                                          "";
+    };
+    std::string shown = title;
+    for (char &c : shown)
+      if (c == '\'')
+        c = ' ';
+    write_file(communicator,
+               directory + "/point.gp",
+               "# gnuplot point.gp\n"
+               "set terminal svg size 480,380 enhanced font 'sans,12' "
+               "background 'white'\n"
+               "set output 'point.svg'\n"
+               "set datafile separator ','\n"
+               "set title '" +
+                 shown + "' noenhanced\nset xlabel '" + horizontal +
+                 unit(horizontal) + "'\nset ylabel '" + vertical +
+                 unit(vertical) +
+                 "'\nset grid\nset zeroaxis lt -1\nunset key\n"
+                 "set format '%g'\nset xtics rotate by -25 offset 0,-0.3\n"
+                 "set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n"
+                 "plot 'point.csv' skip 1 using " +
+                 number(horizontal) + ":" + number(vertical) +
+                 " with lines lw 2 lc rgb '#1f5fa8'\n");
+    if (Utilities::MPI::this_mpi_process(communicator) != 0)
+      return;
+    const std::string command =
+      "cd '" + directory + "' && gnuplot point.gp > /dev/null 2>&1";
+    if (directory.find('\'') != std::string::npos ||
+        std::system(command.c_str()) != 0)
+      std::cout << "No picture: gnuplot is not there, or could not draw; "
+                   "'gnuplot point.gp' in the directory of the results does "
+                   "it.\n";
+  }
+} // namespace Signoton
