@@ -106,7 +106,9 @@ namespace Signoton
                           constants_text,
                           "For the expressions: 'r = 1e-3, T = 2'.");
     handler.add_parameter("Start time", start_time, "In s.");
-    handler.add_parameter("End time", end_time, "In s.");
+    handler.add_parameter("End time",
+                          end_time,
+                          "In s; by default where the last table ends, or 1.");
     handler.add_parameter("Turning points",
                           turning_text,
                           "Times in s, separated by commas, that steps have to "
@@ -238,7 +240,12 @@ namespace Signoton
     if (is_shear)
       give(1, side.str(), true, place);
 
-    if (!(end_time > start_time))
+    if (!file.has(path, "End time") && !turning_points.empty())
+      end_time =
+        *std::max_element(turning_points.begin(), turning_points.end());
+    // steps down to a part of the program have to move the clock
+    const double length = end_time - start_time;
+    if (!(length > 1e-5 * std::max(std::abs(start_time), std::abs(end_time))))
       refuse("End time",
              Utilities::to_string(end_time),
              "a time after the start at " + Utilities::to_string(start_time),
@@ -246,25 +253,30 @@ namespace Signoton
     for (const auto &item : Utilities::split_string_list(turning_text, ','))
       turning_points.push_back(
         read_number(item, file.where(path, "Turning points")));
-    turning_points.push_back(end_time);
     std::sort(turning_points.begin(), turning_points.end());
-    if (!(step_size > 0.))
-      step_size = (end_time - start_time) / 100.;
+    turning_points.erase(std::lower_bound(turning_points.begin(),
+                                          turning_points.end(),
+                                          end_time - resolution * length),
+                         turning_points.end());
+    turning_points.push_back(end_time);
+    step_size = step_size > 0. ? std::min(step_size, length) : length / 100.;
 
-    const std::string driven = kind == "hydrostatic" ? "volume strain" :
-                               is_shear              ? "strain xy" :
-                                                       "strain xx";
+    std::string driven = is_shear ? "xy" : "xx";
+    for (unsigned int c = 6; by_component && c-- > 0;)
+      if (components[mandel_index[c]].program)
+        driven = component_names[c];
     if (horizontal.empty())
-      horizontal = driven;
+      horizontal = kind == "hydrostatic" ? "volume strain" : "strain " + driven;
     if (vertical.empty())
-      vertical = kind == "hydrostatic" ? "mean stress" :
-                 is_shear              ? "stress xy" :
-                                         "stress xx";
+      vertical = kind == "hydrostatic" ? "mean stress" : "stress " + driven;
     std::array<bool, 6> is_stress{};
     for (unsigned int c = 0; c < 6; ++c)
       is_stress[c] = components[c].program && components[c].is_stress;
-    if (is_stress == std::array<bool, 6>{})
+    by_strain = is_stress == std::array<bool, 6>{};
+    if (by_strain)
       material->require_stress_from_strain();
+    else
+      material->require_resistance();
     network = std::make_unique<Network>(material->scheme());
     network->set_control(is_stress);
   }
@@ -292,8 +304,16 @@ namespace Signoton
     network->set_time_step(time_step);
     const Network::Step &found =
       network->update(given, from.tensors.data(), from.scalars.data(), false);
-    if (!found.converged)
+    if (!found.converged || !std::isfinite(dot(found.stress, found.stress)) ||
+        !std::isfinite(dot(found.strain, found.strain)))
       return {};
+    // a stress that the scheme cannot bear is not met by strains without end
+    const double stress_size = std::sqrt(dot(found.stress, found.stress));
+    for (unsigned int c = 0; c < 6; ++c)
+      if (components[c].program && components[c].is_stress &&
+          std::abs(found.stress[c] - given[c]) >
+            1e-8 * std::max(stress_scale, stress_size))
+        return {};
     to.strain  = found.strain;
     to.stress  = found.stress;
     to.tensors = network->trial_tensors();
@@ -327,6 +347,20 @@ namespace Signoton
   ExitStatus
   PointDriver::run()
   {
+    try
+      {
+        return drive();
+      }
+    catch (const UserError &)
+      {
+        write(); // what was accepted before
+        throw;
+      }
+  }
+
+  ExitStatus
+  PointDriver::drive()
+  {
     ConditionalOStream screen(std::cout,
                               Utilities::MPI::this_mpi_process(communicator) ==
                                 0);
@@ -335,21 +369,22 @@ namespace Signoton
     state.tensors.resize(network->n_tensors(), Vector6{});
     state.scalars.resize(network->n_scalars(), 0.);
     state.time         = start_time;
-    const double least = 1e-9 * (end_time - start_time);
+    const double least = resolution * (end_time - start_time);
     // a step over which a jump is taken, as when a damper strikes
     const double jump = 1e-5 * (end_time - start_time);
     // the answer to what is given at the start, at once: dampers stand still
     state.time -= least;
     unsigned int n_steps = 0, n_cut = 0, most_iterations = 0;
-    double       dt = step_size;
-    std::string  failure;
+    double       dt         = step_size;
+    bool         has_failed = false;
     if (const auto first = step(state, least))
       state = *first;
     else
-      failure = "the state that the program gives at its start";
+      has_failed = true;
     state.time = start_time;
-    record(state);
-    for (std::size_t turn = 0; failure.empty() && state.time < end_time;)
+    if (!has_failed)
+      record(state);
+    for (std::size_t turn = 0; !has_failed && end_time - state.time > least;)
       {
         if (!(turning_points[turn] > state.time + least))
           {
@@ -358,8 +393,8 @@ namespace Signoton
           }
         const double left = turning_points[turn] - state.time;
         // whole steps to the turning point, of nearly the same size
-        const double         wanted = std::min(dt, step_size);
-        const double         h      = left / std::ceil(left / wanted - 1e-9);
+        const double wanted = std::min(dt, step_size);
+        const double h = left / std::max(1., std::ceil(left / wanted - 1e-9));
         std::optional<State> one, half, two;
         double               error = 0.;
         if (tolerance > 0.)
@@ -381,12 +416,7 @@ namespace Signoton
                 h * std::clamp(0.9 * std::sqrt(tolerance / error), 0.1, 0.7) :
                 0.25 * h;
             ++n_cut;
-            if (!(dt > least))
-              {
-                std::ostringstream when;
-                when << "a state after t = " << state.time;
-                failure = when.str();
-              }
+            has_failed = !(dt > least);
             continue;
           }
         if (tolerance > 0.)
@@ -396,7 +426,10 @@ namespace Signoton
               h * (error > 0. ?
                      std::clamp(0.9 * std::sqrt(tolerance / error), 0.5, 2.) :
                      2.);
+            dt = std::max(dt, jump);
           }
+        else
+          dt = 2. * h;
         state = *two;
         if (turning_points[turn] - state.time < least)
           state.time = turning_points[turn];
@@ -404,18 +437,21 @@ namespace Signoton
         ++n_steps;
         most_iterations = std::max(most_iterations, state.iterations);
       }
-    write();
+    const bool drawn = write();
     screen << n_steps << " steps, " << n_cut
            << " repeated with a smaller size; "
            << "at most " << most_iterations << " local iterations\n"
-           << "Results: " << directory << "/point.csv, point.svg\n";
-    if (failure.empty())
+           << "Results: " << directory << "/point.csv"
+           << (drawn ? ", point.svg" : "") << "\n";
+    if (!has_failed)
       return ExitStatus::completed;
-    screen << "No solution: the scheme has not got " << failure
-           << ", or more than one. The lines before are complete.\n"
+    screen << "No state found that follows t = " << state.time
+           << " by the program. The lines before are complete.\n"
            << "  " << classification(material->scheme()) << "\n"
-           << "  try: a program that stays within the strength, or by strain "
-              "instead of stress\n";
+           << (by_strain ?
+                 "  try: smaller strains, or moduli that differ less\n" :
+                 "  try: a program that stays within the strength, or by "
+                 "strain instead of stress\n");
     return ExitStatus::no_equilibrium;
   }
 

@@ -48,19 +48,20 @@ namespace Signoton
     lines.push_back(line.str());
   }
 
-  void
+  bool
   PointDriver::write() const
   {
+    std::error_code error; // the file will say
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      std::filesystem::create_directories(directory);
+      std::filesystem::create_directories(directory, error);
     std::string text = join(columns, ", ") + "\n";
     for (const std::string &line : lines)
       text += line;
     write_file(communicator, directory + "/point.csv", text);
-    plot();
+    return plot();
   }
 
-  void
+  bool
   PointDriver::plot() const
   {
     const auto number = [](const std::string &column) {
@@ -96,13 +97,15 @@ namespace Signoton
                  number(horizontal) + ":" + number(vertical) +
                  " with lines lw 2 lc rgb '#1f5fa8'\n");
     if (Utilities::MPI::this_mpi_process(communicator) != 0)
-      return;
+      return true;
     const std::string command =
       "cd '" + directory + "' && gnuplot point.gp > /dev/null 2>&1";
-    if (directory.find('\'') != std::string::npos ||
-        std::system(command.c_str()) != 0)
+    const bool drawn = directory.find('\'') == std::string::npos &&
+                       std::system(command.c_str()) == 0;
+    if (!drawn)
       std::cout << "No picture: gnuplot is not there, or could not draw; "
                    "'gnuplot point.gp' in the directory of the results does "
                    "it.\n";
+    return drawn;
   }
 } // namespace Signoton

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Signoton
 {
@@ -17,11 +18,13 @@ namespace Signoton
       }
     catch (const ExceptionBase &)
       {
-        throw UserError(where,
-                        "'" + text + "'",
-                        "a number",
-                        "tables look like '0: 0, 1: -5e-4, 3: -5e-4'");
+        value = std::numeric_limits<double>::quiet_NaN();
       }
+    if (!std::isfinite(value))
+      throw UserError(where,
+                      "'" + text + "'",
+                      "a number",
+                      "tables look like '0: 0, 1: -5e-4, 3: -5e-4'");
     return value;
   }
 

@@ -40,12 +40,6 @@ namespace Signoton::Rheology
     }
 
     bool
-    is_group_of(const Scheme &scheme, const Kind kind)
-    {
-      return scheme.kind == kind;
-    }
-
-    bool
     ignores_pressure(const Scheme &scheme)
     {
       return std::holds_alternative<VonMisesCylinder<false>>(scheme.set[0]) ||
@@ -69,7 +63,7 @@ namespace Signoton::Rheology
       {
         case Kind::spring:
         case Kind::damper:
-          return {scheme.moduli.bulk > 0., scheme.moduli.shear > 0.};
+          return {true, true}; // zero where a constant is zero
         case Kind::series:
           return of_any(scheme.parts, stress_follows_from_strain);
         case Kind::parallel:
@@ -100,29 +94,76 @@ namespace Signoton::Rheology
       }
   }
 
+  namespace
+  {
+    /** Moduli of the whole from those of its elements. */
+    template <typename OfElement>
+    Moduli
+    composed(const Scheme &scheme, const OfElement &of_element)
+    {
+      if (!scheme.is_group())
+        return of_element(scheme);
+      const bool series = scheme.kind == Kind::series;
+      Moduli     result = series ? Moduli{infinite, infinite} : Moduli{0., 0.};
+      for (const Scheme &part : scheme.parts)
+        {
+          const Moduli m = composed(part, of_element);
+          if (series)
+            result = {in_series(result.bulk, m.bulk),
+                      in_series(result.shear, m.shear)};
+          else
+            result = {result.bulk + m.bulk, result.shear + m.shear};
+        }
+      return result;
+    }
+
+    void
+    require_determined_stress(const Scheme &scheme, const std::string &where)
+    {
+      if (stress_follows_from_strain(scheme))
+        return;
+      // the part in parallel that leaves it open, if there is one
+      if (scheme.kind == Kind::parallel)
+        for (const Scheme &part : scheme.parts)
+          require_determined_stress(part, where);
+      throw UserError(where,
+                      "an ill-posed scheme: in '" + scheme.text +
+                        "' its stress does not follow from its strain",
+                      "a spring or damper in series with every contact and "
+                      "hinge, or with the group they are in",
+                      "series(spring(bulk = ..., shear = ...), " + scheme.text +
+                        ")");
+    }
+  } // namespace
+
+  void
+  require_resistance(const Scheme &scheme, const std::string &where)
+  {
+    // of the parts first: the smallest one says most
+    for (const Scheme &part : scheme.parts)
+      if (scheme.kind == Kind::series || part.kind == Kind::series)
+        require_resistance(part, where);
+    const Moduli stiffness = composed(scheme, [](const Scheme &element) {
+      return element.set.empty() ? element.moduli : Moduli{infinite, infinite};
+    });
+    if (stiffness.bulk > 0. && stiffness.shear > 0.)
+      return;
+    const bool is_volume = !(stiffness.bulk > 0.);
+    throw UserError(where,
+                    "'" + scheme.text + "' has no stiffness against changes " +
+                      (is_volume ? "of volume" : "of shape"),
+                    std::string("a ") + (is_volume ? "bulk" : "shear") +
+                      " modulus or viscosity above zero: in series, the whole "
+                      "has no more than its weakest part",
+                    "a constant that is left out is zero; give it a large "
+                    "value to make the part stiff");
+  }
+
   void
   require_stress_from_strain(const Scheme &scheme, const std::string &where)
   {
-    const Parts found = stress_follows_from_strain(scheme);
-    if (found)
-      return;
-    // the part in parallel that leaves it open, if there is one
-    if (scheme.kind == Kind::parallel)
-      for (const Scheme &part : scheme.parts)
-        require_stress_from_strain(part, where);
-    const std::string what = found.spherical  ? "its deviatoric stress" :
-                             found.deviatoric ? "its pressure" :
-                                                "its stress";
-    const std::string cure =
-      found.spherical  ? "damper(shear viscosity = ...)" :
-      found.deviatoric ? "damper(bulk viscosity = ...)" :
-                         "spring(bulk = ..., shear = ...)";
-    throw UserError(where,
-                    "an ill-posed scheme: in '" + scheme.text + "' " + what +
-                      " does not follow from its strain",
-                    "a spring or damper in series with every contact and "
-                    "hinge, or with the group they are in",
-                    "series(" + cure + ", " + scheme.text + ")");
+    require_determined_stress(scheme, where);
+    require_resistance(scheme, where);
   }
 
   bool
@@ -186,33 +227,22 @@ namespace Signoton::Rheology
   Moduli
   loosened_moduli(const Scheme &scheme)
   {
-    switch (scheme.kind)
-      {
-        case Kind::spring:
-          return scheme.moduli;
-        case Kind::damper:
-          return {scheme.moduli.bulk > 0. ? infinite : 0.,
-                  scheme.moduli.shear > 0. ? infinite : 0.};
-        case Kind::contact:
-          return {0., 0.};
-        case Kind::hinge:
-          return ignores_pressure(scheme) ? Moduli{infinite, infinite} :
-                                            Moduli{0., 0.};
-        default:
-          break;
-      }
-    const bool series = is_group_of(scheme, Kind::series);
-    Moduli     result = series ? Moduli{infinite, infinite} : Moduli{0., 0.};
-    for (const Scheme &part : scheme.parts)
-      {
-        const Moduli m = loosened_moduli(part);
-        if (series)
-          result = {in_series(result.bulk, m.bulk),
-                    in_series(result.shear, m.shear)};
-        else
-          result = {result.bulk + m.bulk, result.shear + m.shear};
-      }
-    return result;
+    return composed(scheme, [](const Scheme &element) -> Moduli {
+      switch (element.kind)
+        {
+          case Kind::spring:
+            return element.moduli;
+          case Kind::damper:
+            return {element.moduli.bulk > 0. ? infinite : 0.,
+                    element.moduli.shear > 0. ? infinite : 0.};
+          case Kind::hinge:
+            if (ignores_pressure(element))
+              return {infinite, infinite};
+            return {0., 0.};
+          default:
+            return {0., 0.};
+        }
+    });
   }
 
   namespace

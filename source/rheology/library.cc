@@ -10,7 +10,7 @@ namespace Signoton::Rheology
     static const std::vector<ReadyScheme> schemes = {
       {"elastic", "2.1", "{spring}"},
       {"elastic granular", "2.3a, 2.10b", "series({spring}, {bound contact})"},
-      {"elastic plastic", "2.1", "series({spring}, {hinge on set})"},
+      {"elastic plastic", "", "series({spring}, {hinge on set})"},
       {"elastic plastic granular",
        "2.6",
        "series({spring}, {bound cone and hinge})"},
@@ -24,10 +24,10 @@ namespace Signoton::Rheology
       {"schwedoff bingham granular",
        "2.9b",
        "series({spring}, {contact}, parallel({hinge}, {damper}))"},
-      // the monograph names 2.9c a regularized variant of 2.9b; the spring
-      // across the contact is our reading
+      // the monograph names 2.9c a regularized variant of 2.9b: the spring
+      // across the contact is a reading of that
       {"regularized schwedoff bingham granular",
-       "2.9c, our reading",
+       "2.9c",
        "series({spring}, parallel({contact}, {second spring}), "
        "parallel({hinge}, {damper}))"},
       {"rigid granular with elastic binder",
@@ -44,22 +44,22 @@ namespace Signoton::Rheology
        "series({spring}, parallel({contact}, {damper}))"},
       {"rigid granular with plastic binder",
        "2.12a",
-       "parallel({contact}, {hinge})"},
+       "parallel({contact}, {cohesive hinge})"},
       {"elastic granular with plastic binder",
        "2.12b",
        "series({spring}, parallel({contact}, series({second spring}, "
-       "{hinge})))"},
+       "{cohesive hinge})))"},
       {"fiber composite",
-       "ours",
+       "",
        "parallel({spring}, series({second spring}, contact(no compression)))"},
       {"porous",
-       "ours",
+       "",
        "parallel(series({spring}, {hinge on set}), series({second spring}, "
        "{contact with gap}))"},
       {"complex",
-       "ours",
+       "",
        "series({spring}, parallel({contact}, series({second spring}, "
-       "{hinge})), "
+       "{cohesive hinge})), "
        "parallel({hinge}, {damper}))"}};
     return schemes;
   }

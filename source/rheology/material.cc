@@ -83,6 +83,12 @@ namespace Signoton::Rheology
     Rheology::require_stress_from_strain(scheme(), where);
   }
 
+  void
+  Material::require_resistance() const
+  {
+    Rheology::require_resistance(scheme(), where);
+  }
+
   Moduli
   Material::spring() const
   {
@@ -115,7 +121,7 @@ namespace Signoton::Rheology
   }
 
   std::string
-  Material::set_text() const
+  Material::set_text(const bool with_cohesion) const
   {
     std::string text = admissible_set + ", ";
     if (admissible_set == "mises schleicher")
@@ -126,7 +132,7 @@ namespace Signoton::Rheology
       text += "tensile strength = " + exact(tensile_strength);
     else
       text += "strength = " + exact(shear_strength);
-    if (cohesion > 0.)
+    if (with_cohesion && cohesion > 0.)
       text += ", cohesion = " + exact(cohesion);
     if (isotropic_hardening_modulus > 0.)
       text += ", isotropic hardening = " + exact(isotropic_hardening_modulus);
@@ -148,8 +154,12 @@ namespace Signoton::Rheology
     if (name == "damper")
       return "damper(bulk viscosity = " + exact(bulk_viscosity) +
              ", shear viscosity = " + exact(shear_viscosity) + ")";
+    if (name == "cohesive hinge")
+      return "hinge(" + set_text() + ")";
     if (name == "hinge")
       return "hinge(von mises, strength = " + exact(shear_strength) + ")";
+    if (name == "contact" && uses("cohesive hinge"))
+      return "contact(" + set_text(false) + ")";
     if (name == "contact with gap")
       return "contact(" + set_text() + ", gap = " + exact(gap) + ")";
 
@@ -203,6 +213,6 @@ namespace Signoton::Rheology
       rheology +
       (ready_scheme(rheology) != nullptr ? " = " + tree.text : std::string());
     return text + "; " + classification(tree) +
-           (closed ? "; closed form" : "; general local solver");
+           (closed ? "; has a closed form" : "; general local solver");
   }
 } // namespace Signoton::Rheology

@@ -29,8 +29,10 @@ namespace Signoton::Rheology
                           "The material id of the cells that consist of it.");
     std::vector<std::string> names;
     for (const auto &scheme : ready_schemes())
-      names.push_back(scheme.name + " (Fig. " + scheme.figure +
-                      "): " + scheme.text);
+      names.push_back(
+        scheme.name +
+        (scheme.figure.empty() ? "" : " (Fig. " + scheme.figure + ")") + ": " +
+        scheme.text);
     handler.add_parameter(
       "Rheology",
       rheology,
@@ -176,6 +178,8 @@ namespace Signoton::Rheology
       }
     if (uses("damper"))
       keys.emplace_back("Shear viscosity");
+    if (uses("cohesive hinge"))
+      keys.emplace_back("Cohesion");
     if (uses("second spring"))
       {
         keys.emplace_back("Second bulk modulus");
@@ -226,7 +230,17 @@ namespace Signoton::Rheology
     const SceneFile::Path path = {"Materials", name};
     where                      = file.where(path, "Rheology");
     for (const std::string &key : file.keys({"Schemes"}))
-      definitions[key] = file.value({"Schemes"}, key);
+      {
+        if (ready_scheme(key) != nullptr || !is_scheme_name(key))
+          throw UserError(file.where({"Schemes"}, key),
+                          "the name '" + key + "'",
+                          "a name that is not one of an element, a group or a "
+                          "ready scheme, without brackets, ',' and '='",
+                          "'my " + key + "', for instance");
+        definitions[key] = file.value({"Schemes"}, key);
+      }
+    for (const auto &[key, text] : definitions)
+      parse_scheme(text, file.where({"Schemes"}, key), definitions);
     const bool is_written = rheology.find('(') != std::string::npos ||
                             definitions.count(rheology) > 0;
     if (!is_written && ready_scheme(rheology) == nullptr)
@@ -297,9 +311,14 @@ namespace Signoton::Rheology
                  "'",
                "a rigid contact needs a cone, a plastic hinge a yield set");
     };
-    if (uses("contact") || uses("bound contact") || uses("contact with gap"))
+    const bool on_contact = uses("contact") || uses("bound contact") ||
+                            uses("contact with gap"),
+               on_hinge = uses("hinge on set") || uses("cohesive hinge");
+    if (on_contact && on_hinge)
+      allow_sets({"mises schleicher", "coulomb mohr"});
+    else if (on_contact)
       allow_sets({"mises schleicher", "coulomb mohr", "no tension"});
-    if (uses("hinge on set") && !uses("contact with gap"))
+    else if (on_hinge)
       allow_sets({"mises schleicher", "coulomb mohr", "von mises", "tresca"});
     if (uses("bound cone and hinge"))
       allow_sets({"mises schleicher"});
@@ -319,6 +338,7 @@ namespace Signoton::Rheology
                             "Shear viscosity",
                             "Second bulk modulus",
                             "Second shear modulus",
+                            "Cohesion",
                             "Gap"})
       if (contains(required, key) &&
           !(Utilities::string_to_double(file.value(path, key)) > 0.))

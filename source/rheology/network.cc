@@ -228,10 +228,15 @@ namespace Signoton::Rheology
       }
     sweep(known_strain);
     known_stress = nodes[0].stress;
-    // What stresses are to be measured by: those of the linear elements, and
-    // what the strains would cause, remembered ones included, since these carry
-    // the round-off of earlier steps.
-    step.scale = 0.;
+    // strains where the stress is given move all
+    const Vector6 free_strain =
+      compliance * add_scaled(given_stress, -1., known_stress);
+    if (dot(free_strain, free_strain) > 0.)
+      sweep(add_scaled(known_strain, 1., free_strain));
+    // What stresses are to be measured by: those of the linear elements, those
+    // that the step would cause, and the round-off of strains.
+    constexpr double round_off = 1e-10; // 1e-5 of the stress that they had
+    step.scale                 = 0.;
     for (const Node &node : nodes)
       if (node.is_linear())
         step.scale += dot(node.stress, strain_of(node.stiffness, node.stress));
@@ -239,7 +244,8 @@ namespace Signoton::Rheology
       {
         const Node &node = nodes[leaf.node];
         for (const Vector6 *strain : {&node.strain, &leaf.reference})
-          step.scale += dot(*strain, stress_of(node.stiffness, *strain));
+          step.scale +=
+            round_off * dot(*strain, stress_of(node.stiffness, *strain));
       }
     for (Leaf &leaf : leaves)
       {
@@ -250,15 +256,7 @@ namespace Signoton::Rheology
                      scale(leaf.root[0],
                            leaf.root[1],
                            add_scaled(node.strain, -1., leaf.reference)));
-      }
-    // strains where the stress is given move them
-    const Vector6 free_strain =
-      compliance * add_scaled(given_stress, -1., known_stress);
-    for (unsigned int i = 0; i < leaves.size(); ++i)
-      {
-        Vector6 &start = leaves[i].start;
-        start = add_scaled(start, 1., scale(B[0][i], B[1][i], free_strain));
-        step.scale += dot(start, start);
+        step.scale += dot(leaf.start, leaf.start);
       }
   }
 

@@ -140,6 +140,8 @@ namespace Signoton::Rheology
         defects += dot(leaf.defect, leaf.defect);
         stresses += dot(leaf.admissible, leaf.admissible);
       }
+    if (!std::isfinite(defects))
+      return std::numeric_limits<double>::infinity();
     return defects > 0. ? std::sqrt(defects / std::max(step.scale, stresses)) :
                           0.;
   }

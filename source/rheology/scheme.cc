@@ -20,6 +20,7 @@ namespace Signoton::Rheology
       std::string name;
       double      value;
       std::size_t position; ///< in the text
+      bool        is_used = false;
     };
 
     /** What a number may be. */
@@ -52,6 +53,11 @@ namespace Signoton::Rheology
         set);
     }
 
+    const std::vector<std::string> reserved =
+      {"series", "parallel", "spring", "damper", "hinge", "contact"};
+
+    constexpr unsigned int most_nodes = 1000;
+
     /** Recursive descent through one text. Words may contain blanks. */
     class Parser
     {
@@ -59,11 +65,13 @@ namespace Signoton::Rheology
       Parser(const std::string                        &text,
              const std::string                        &where,
              const std::map<std::string, std::string> &definitions,
-             const std::vector<std::string>           &open)
+             const std::vector<std::string>           &open,
+             unsigned int                             &n_nodes)
         : text(text)
         , where(where)
         , definitions(definitions)
         , open(open)
+        , n_nodes(n_nodes)
       {}
 
       Scheme
@@ -149,6 +157,12 @@ namespace Signoton::Rheology
         const std::size_t begin = position;
         const std::string name  = words();
         Scheme            scheme;
+        if (++n_nodes > most_nodes)
+          refuse(begin,
+                 "at most " + std::to_string(most_nodes) +
+                   " elements and "
+                   "groups",
+                 "do definitions contain others more than once?");
         if (name == "series" || name == "parallel")
           {
             scheme.kind =
@@ -174,8 +188,7 @@ namespace Signoton::Rheology
       Scheme
       definition(const std::string &name, const std::size_t at)
       {
-        std::vector<std::string> known = {
-          "series", "parallel", "spring", "damper", "hinge", "contact"};
+        std::vector<std::string> known = reserved;
         for (const auto &entry : definitions)
           known.push_back(entry.first);
         const auto found = definitions.find(name);
@@ -195,7 +208,8 @@ namespace Signoton::Rheology
         Scheme scheme = Parser(found->second,
                                where + ", scheme '" + name + "'",
                                definitions,
-                               now_open)
+                               now_open,
+                               n_nodes)
                           .whole();
         scheme.text = name;
         return scheme;
@@ -211,13 +225,18 @@ namespace Signoton::Rheology
         std::string set;
         skip_blanks();
         const std::size_t set_at = position;
-        if (name == "hinge" || name == "contact")
+        bool              more   = !(name == "hinge" || name == "contact");
+        if (!more)
           {
-            set = words();
-            if (!take(','))
-              skip_blanks();
+            set  = words();
+            more = take(',');
           }
-        if (!take(')'))
+        skip_blanks();
+        if (!more)
+          require(')', "',' and a constant, or ')'");
+        else if (set.empty() && take(')'))
+          ; // what is missing is told below
+        else
           {
             do
               arguments.push_back(argument());
@@ -261,6 +280,11 @@ namespace Signoton::Rheology
             if (scheme.kind == Scheme::Kind::contact)
               {
                 scheme.gap = number("gap", not_negative, 0.);
+                if (scheme.gap > 0. &&
+                    std::holds_alternative<NoCompression>(scheme.set[0]))
+                  refuse(end_of_element - 1,
+                         "no gap of a contact that carries tension alone",
+                         "a gap closes under compression");
                 if (scheme.gap > 0. && is_cohesive(scheme.set[0]))
                   refuse(end_of_element - 1,
                          "no cohesion where there is a gap",
@@ -269,7 +293,7 @@ namespace Signoton::Rheology
               }
           }
         for (const auto &argument : arguments)
-          if (!argument.name.empty())
+          if (!argument.is_used)
             refuse(argument.position,
                    "no '" + argument.name + "' in a " + name +
                      (set.empty() ? "" : " on " + set),
@@ -337,6 +361,8 @@ namespace Signoton::Rheology
         Argument result;
         result.position = position;
         result.name     = words();
+        if (result.name.empty())
+          refuse(position, "the name of a constant");
         require('=', "'=' and a number");
         skip_blanks();
         const std::size_t at    = position;
@@ -373,13 +399,13 @@ namespace Signoton::Rheology
       {
         asked.push_back(name);
         for (auto &argument : arguments)
-          if (argument.name == name)
+          if (argument.name == name && !argument.is_used)
             {
               if (!(argument.value > range.lowest ||
                     (range.with_lowest && argument.value >= range.lowest)) ||
                   !(argument.value < range.highest))
                 refuse(argument.position, name + ": " + range.words);
-              argument.name.clear();
+              argument.is_used = true;
               return argument.value;
             }
         if (fallback)
@@ -396,10 +422,11 @@ namespace Signoton::Rheology
       const std::string                        &where;
       const std::map<std::string, std::string> &definitions;
       const std::vector<std::string>            open;
-      std::size_t                               position       = 0;
-      std::size_t                               end_of_element = 0;
-      std::vector<Argument>                     arguments;
-      std::vector<std::string>                  asked;
+      unsigned int            &n_nodes; ///< so far, of all texts
+      std::size_t              position       = 0;
+      std::size_t              end_of_element = 0;
+      std::vector<Argument>    arguments;
+      std::vector<std::string> asked;
     };
   } // namespace
 
@@ -408,6 +435,14 @@ namespace Signoton::Rheology
                const std::string                        &where,
                const std::map<std::string, std::string> &definitions)
   {
-    return Parser(text, where, definitions, {}).whole();
+    unsigned int n_nodes = 0;
+    return Parser(text, where, definitions, {}, n_nodes).whole();
+  }
+
+  bool
+  is_scheme_name(const std::string &name)
+  {
+    return name.find_first_of("(),=") == std::string::npos &&
+           std::find(reserved.begin(), reserved.end(), name) == reserved.end();
   }
 } // namespace Signoton::Rheology

@@ -28,11 +28,14 @@ namespace
 
   /** The columns of the last line that a program ends with. */
   std::vector<double>
-  last_line(const std::string &text)
+  last_line(const std::string &text, ExitStatus *status = nullptr)
   {
     PointDriver point(MPI_COMM_SELF, SceneFile::parse(text, "test.prm"));
-    point.directory = "results";
-    if (point.run() != ExitStatus::completed)
+    point.directory        = "results";
+    const ExitStatus found = point.run();
+    if (status != nullptr)
+      *status = found;
+    else if (found != ExitStatus::completed)
       return {};
     std::ifstream csv("results/point.csv");
     std::string   line, last;
@@ -115,6 +118,30 @@ main(int argc, char **argv)
   verdict("work is stored, dissipated, and little lost by the time steps",
           spent < creep.at(17) && spent > 0.99 * creep.at(17));
 
+  // a stress slightly above the strength, which strains cannot meet
+  const std::string hinge =
+    "subsection Materials\nsubsection m\nset Rheology = series(spring("
+    "bulk = 1, shear = 0.6), hinge(von mises, strength = 1e-3))\nend\nend\n";
+  ExitStatus end_status;
+  const auto unbearable =
+    last_line(hinge +
+                program("set Kind = uniaxial\nset Stress = 1.7321e-3 * t\n"),
+              &end_status);
+  verdict("no state above the strength",
+          end_status == ExitStatus::no_equilibrium);
+  verdict("the last state is at the strength",
+          near(unbearable.at(7), std::sqrt(3.) * 1e-3));
+  const auto constant_steps =
+    last_line(hinge +
+                program(
+                  "set Strain = 0: 0, 0.5: 1e-2, 0.5000000001: 0, 1: 5e-3\n") +
+                "subsection Time steps\nset Tolerance = 0\nset Largest step = "
+                "1e30\nend\n",
+              &end_status);
+  verdict("a jump, in the largest steps there are",
+          end_status == ExitStatus::completed &&
+            std::abs(constant_steps.at(0) - 1.) < 1e-8);
+
   std::ofstream output("output", std::ios::app);
   complain(output, "no program", granular);
   complain(output,
@@ -154,5 +181,18 @@ main(int argc, char **argv)
            "bulk = 1, shear = 1), contact(coulomb mohr, friction = 30))\n"
            "end\nend\n" +
              program("set Strain = t\n"));
+  complain(output,
+           "no number in a table",
+           granular + program("set Strain = 0: 0, 1: nan\n"));
+  complain(output,
+           "a damper that flows freely",
+           "subsection Materials\nsubsection m\nset Rheology = series(spring("
+           "bulk = 1, shear = 1), damper(shear viscosity = 1))\nend\nend\n" +
+             program("set Stress = t\n"));
+  complain(output,
+           "a scheme with the name of a ready one",
+           "subsection Schemes\nset elastic = spring(bulk = 1, shear = 1)\n"
+           "end\n" +
+             granular + program("set Strain = t\n"));
   return verdict.status();
 }

@@ -33,7 +33,17 @@ namespace
     {"grains", "spring(bulk = 2, shear = 1)"},
     {"glue", "parallel(contact(no tension), spring(bulk = 1, shear = 1))"},
     {"loop", "series(grains, other loop)"},
-    {"other loop", "parallel(loop, glue)"}};
+    {"other loop", "parallel(loop, glue)"},
+    {"twice 1", "series(grains, grains)"},
+    {"twice 2", "series(twice 1, twice 1)"},
+    {"twice 3", "series(twice 2, twice 2)"},
+    {"twice 4", "series(twice 3, twice 3)"},
+    {"twice 5", "series(twice 4, twice 4)"},
+    {"twice 6", "series(twice 5, twice 5)"},
+    {"twice 7", "series(twice 6, twice 6)"},
+    {"twice 8", "series(twice 7, twice 7)"},
+    {"twice 9", "series(twice 8, twice 8)"},
+    {"twice 10", "series(twice 9, twice 9)"}};
 
   void
   read(const std::string &text)
@@ -83,5 +93,10 @@ main()
     "series(grains, contact(mises schleicher, friction = 0.5), hinge(tresca, "
     "strength = 1), damper(bulk viscosity = 1, shear = 2), glue)");
   read("series(loop, glue)");
+  read("series(grains, = 7, glue)");
+  read("series(grains, contact(hydrostatic = 3))");
+  read("series(grains, contact(hydrostatic,))");
+  read("contact(no compression, gap = 0.1)");
+  read("twice 10");
   return 0;
 }

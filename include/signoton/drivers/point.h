@@ -75,13 +75,20 @@ namespace Signoton
     double
     difference(const State &a, const State &b) const;
 
+    ExitStatus
+    drive();
+
     // point_output.cc
     void
     record(const State &state);
-    void
+    /** The table, and the diagram; whether that could be drawn. */
+    bool
     write() const;
-    void
+    bool
     plot() const;
+
+    /** Steps are at least this part of the program. */
+    static constexpr double resolution = 1e-9;
 
     /** Of the table, in the order of record(). */
     static const std::vector<std::string> columns;
@@ -97,6 +104,7 @@ namespace Signoton
     double                             step_size = 0., tolerance = 1e-5;
     std::string                        turning_text;
     std::vector<double>                turning_points;
+    bool                               by_strain = true; ///< no stress is given
     std::string                        horizontal, vertical;
     std::optional<Rheology::Material>  material;
     std::unique_ptr<Rheology::Network> network;

@@ -33,8 +33,15 @@ namespace Signoton::Rheology
   Parts
   strain_follows_from_stress(const Scheme &scheme);
 
+  /** Refuse a scheme of which a part in series has no stiffness against
+   *  changes of volume or of shape, a zero constant: the whole would have no
+   *  pressure, or no shear stress. */
+  void
+  require_resistance(const Scheme &scheme, const std::string &where);
+
   /** Refuse a scheme whose stress the strain leaves open (the monograph calls
-   *  it incorrect in the mechanical sense), with the element that cures it. */
+   *  it incorrect in the mechanical sense), with the element that cures it.
+   *  Includes require_resistance(). */
   void
   require_stress_from_strain(const Scheme &scheme, const std::string &where);
 

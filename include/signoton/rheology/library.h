@@ -11,7 +11,7 @@ namespace Signoton::Rheology
   struct ReadyScheme
   {
     std::string name;
-    /** In chapter 2 of Sadovskaya and Sadovskii (2012), or "ours". */
+    /** In chapter 2 of Sadovskaya and Sadovskii (2012), empty if none. */
     std::string figure;
     std::string text;
   };

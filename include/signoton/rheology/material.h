@@ -46,6 +46,10 @@ namespace Signoton::Rheology
     void
     require_stress_from_strain() const;
 
+    /** Refuse a scheme with a part that flows freely, see there. */
+    void
+    require_resistance() const;
+
     /** The scheme that the rheology names, with the constants filled in.
      *  @param binder_ratio as in law() */
     Scheme
@@ -113,7 +117,7 @@ namespace Signoton::Rheology
     element(const std::string &name, const std::optional<double> &ratio) const;
 
     std::string
-    set_text() const;
+    set_text(const bool with_cohesion = true) const;
 
     std::string rheology                    = "elastic";
     std::string admissible_set              = "mises schleicher";

@@ -94,6 +94,11 @@ namespace Signoton::Rheology
   parse_scheme(const std::string                        &text,
                const std::string                        &where,
                const std::map<std::string, std::string> &definitions = {});
+
+  /** Whether a subtree can have this name: one that the text can hold, and that
+   *  means nothing else. */
+  bool
+  is_scheme_name(const std::string &name);
 } // namespace Signoton::Rheology
 
 #endif
