@@ -103,6 +103,19 @@ namespace Signoton
     return constants;
   }
 
+  bool
+  depends_on_time(const std::string &expression)
+  {
+    const auto in_name = [](const char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    };
+    for (std::size_t i = 0; i < expression.size(); ++i)
+      if (expression[i] == 't' && (i == 0 || !in_name(expression[i - 1])) &&
+          (i + 1 == expression.size() || !in_name(expression[i + 1])))
+        return true;
+    return false;
+  }
+
   std::vector<std::string>
   split_components(const std::string &text,
                    const unsigned int n,

@@ -66,6 +66,18 @@ namespace Signoton
                             "Prescribed component of the displacement in m, an "
                             "expression in x, y, (z,) t; empty: free. Where "
                             "boundaries meet, the first in the file holds.");
+    for (unsigned int d = 0; d < dim; ++d)
+      handler.add_parameter(std::string("Velocity ") + axis_names[d],
+                            velocity_text[d],
+                            "Prescribed component of the velocity in m/s, an "
+                            "expression; for dynamics. Empty: free.");
+    handler.add_parameter("Absorbing",
+                          absorbing,
+                          "Dashpots that let waves leave (Lysmer and "
+                          "Kuhlemeyer): the traction -rho c_p v_n n - rho c_s "
+                          "v_t, with the speeds of the closed medium or of the "
+                          "loosened one; for dynamics.",
+                          Patterns::Selection("no|closed|loosened"));
     handler.add_parameter("Traction",
                           traction_text,
                           "Force per area in Pa, one expression per direction "
@@ -105,6 +117,19 @@ namespace Signoton
           {displacement_text[d]},
           constants,
           file.where(path, std::string("Displacement ") + axis_names[d]));
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!velocity_text[d].empty())
+        {
+          const std::string key = std::string("Velocity ") + axis_names[d];
+          velocity[d]           = make_function<dim>({velocity_text[d]},
+                                           constants,
+                                           file.where(path, key));
+          if (displacement[d])
+            throw UserError(file.where(path, key),
+                            "a velocity and a displacement",
+                            "one of them",
+                            "each follows from the other");
+        }
     const std::string at = file.where(path, "Traction");
     if (!traction_text.empty())
       traction = make_function<dim>(split_components(traction_text, dim, at),
@@ -116,11 +141,17 @@ namespace Signoton
                                     file.where(path, "Pressure"));
 
     unsigned int n_prescribed = 0;
-    for (const auto &component : displacement)
-      n_prescribed += component ? 1 : 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      n_prescribed += displacement[d] || velocity[d] ? 1 : 0;
+    if (absorbs() && (symmetry || n_prescribed > 0))
+      throw UserError(file.where(path, "Absorbing"),
+                      "an absorbing boundary whose motion is prescribed",
+                      "a boundary that is free to move",
+                      "a wave is absorbed or reflected: remove 'Absorbing', or "
+                      "the symmetry, displacement or velocity");
     if (symmetry && n_prescribed > 0)
       throw UserError(file.where(path, "Symmetry"),
-                      "symmetry and a prescribed displacement",
+                      "symmetry and a prescribed motion",
                       "one of them at a boundary",
                       "symmetry already sets the normal displacement to zero");
     if (symmetry && pressure)
@@ -138,7 +169,7 @@ namespace Signoton
       {
         const auto parts = split_components(traction_text, dim, at);
         for (unsigned int d = 0; d < dim; ++d)
-          if (displacement[d] && parts[d] != "0")
+          if ((displacement[d] || velocity[d]) && parts[d] != "0")
             throw UserError(at,
                             "'" + parts[d] + "' in the direction of " +
                               axis_names[d] +
@@ -165,11 +196,29 @@ namespace Signoton
   bool
   BoundaryCondition<dim>::constrains() const
   {
-    return symmetry || std::any_of(displacement.begin(),
-                                   displacement.end(),
-                                   [](const auto &component) {
-                                     return component != nullptr;
-                                   });
+    const auto any = [](const auto &components) {
+      return std::any_of(components.begin(),
+                         components.end(),
+                         [](const auto &c) { return c != nullptr; });
+    };
+    return symmetry || any(displacement) || any(velocity);
+  }
+
+  template <int dim>
+  std::string
+  BoundaryCondition<dim>::dynamic_key() const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (velocity[d])
+        return std::string("Velocity ") + axis_names[d];
+    return absorbs() ? "Absorbing" : "";
+  }
+
+  template <int dim>
+  bool
+  BoundaryCondition<dim>::varies() const
+  {
+    return depends_on_time(traction_text) || depends_on_time(pressure_text);
   }
 
   template <int dim>
@@ -181,18 +230,24 @@ namespace Signoton
   {
     for (const auto &condition : conditions)
       for (unsigned int d = 0; d < dim; ++d)
-        if (condition.displacement[d])
-          {
-            ComponentMask mask(dim, false);
-            mask.set(d, true);
-            VectorTools::interpolate_boundary_values(
-              mapping,
-              dof_handler,
-              condition.id,
-              OneComponent<dim>(*condition.displacement[d], d),
-              constraints,
-              mask);
-          }
+        {
+          // the value of a velocity does not matter: what integrates in time
+          // knows the displacement
+          const auto *function = condition.displacement[d] ?
+                                   condition.displacement[d].get() :
+                                   condition.velocity[d].get();
+          if (function == nullptr)
+            continue;
+          ComponentMask mask(dim, false);
+          mask.set(d, true);
+          VectorTools::interpolate_boundary_values(mapping,
+                                                   dof_handler,
+                                                   condition.id,
+                                                   OneComponent<dim>(*function,
+                                                                     d),
+                                                   constraints,
+                                                   mask);
+        }
     std::set<types::boundary_id> symmetric;
     for (const auto &condition : conditions)
       if (condition.symmetry)

@@ -175,14 +175,14 @@ namespace Signoton
 
   template <int dim>
   void
-  Checkpoint<dim>::write(const PointSpace<dim> *history_space,
-                         const VectorType      &displacement)
+  Checkpoint<dim>::write(const PointSpace<dim>                 *history_space,
+                         const std::vector<const VectorType *> &fields)
   {
     namespace fs                 = std::filesystem;
     const std::string unfinished = directory + ".unfinished";
     // p4est ends the whole program if it cannot write: make sure of the space
     const double per_cell =
-      64. + 8. * (model.space->fe.n_dofs_per_cell() +
+      64. + 8. * (fields.size() * model.space->fe.n_dofs_per_cell() +
                   (history_space ? history_space->fe.n_dofs_per_cell() : 0));
     const double estimate =
       1e5 + per_cell * model.space->mesh.n_global_active_cells();
@@ -202,12 +202,19 @@ namespace Signoton
                       "last complete checkpoint is untouched",
                       ExitStatus::output_failed);
 
-    VectorType u = model.space->make_relevant_vector(), history;
-    u.copy_locally_owned_data_from(displacement);
-    u.update_ghost_values();
-    parallel::distributed::SolutionTransfer<dim, VectorType> save_u(
+    std::vector<VectorType>         ghosted(fields.size(),
+                                    model.space->make_relevant_vector());
+    std::vector<const VectorType *> saved;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      {
+        ghosted[i].copy_locally_owned_data_from(*fields[i]);
+        ghosted[i].update_ghost_values();
+        saved.push_back(&ghosted[i]);
+      }
+    parallel::distributed::SolutionTransfer<dim, VectorType> save_fields(
       model.space->dof_handler);
-    save_u.prepare_for_serialization(u);
+    save_fields.prepare_for_serialization(saved);
+    VectorType history;
     std::unique_ptr<parallel::distributed::SolutionTransfer<dim, VectorType>>
       save_history;
     if (history_space)
@@ -281,12 +288,13 @@ namespace Signoton
 
   template <int dim>
   void
-  Checkpoint<dim>::load_fields(const PointSpace<dim> *history_space,
-                               VectorType            &displacement)
+  Checkpoint<dim>::load_fields(const PointSpace<dim>           *history_space,
+                               const std::vector<VectorType *> &fields)
   {
-    parallel::distributed::SolutionTransfer<dim, VectorType> load_u(
+    parallel::distributed::SolutionTransfer<dim, VectorType> load(
       model.space->dof_handler);
-    load_u.deserialize(displacement);
+    std::vector<VectorType *> loaded(fields);
+    load.deserialize(loaded);
     if (history_space)
       {
         VectorType history = history_space->make_relevant_vector();

@@ -21,20 +21,29 @@ namespace Signoton
   template <int dim>
   void
   FieldOutput<dim>::write(const VectorType  &displacement,
+                          const VectorType  *velocity,
                           const double       time,
                           const unsigned int step)
   {
-    VectorType u = model.space->make_relevant_vector();
-    u.copy_locally_owned_data_from(displacement);
-    u.update_ghost_values();
     DataOut<dim> output;
     output.attach_dof_handler(model.space->dof_handler);
-    output.add_data_vector(
-      u,
-      std::vector<std::string>(dim, "displacement"),
-      DataOut<dim>::type_dof_data,
-      std::vector<DataComponentInterpretation::DataComponentInterpretation>(
-        dim, DataComponentInterpretation::component_is_part_of_vector));
+    VectorType nodal[2]; // in use until the end
+    const auto add_nodal = [&](const VectorType  &field,
+                               const std::string &name,
+                               VectorType        &ghosted) {
+      ghosted = model.space->make_relevant_vector();
+      ghosted.copy_locally_owned_data_from(field);
+      ghosted.update_ghost_values();
+      output.add_data_vector(
+        ghosted,
+        std::vector<std::string>(dim, name),
+        DataOut<dim>::type_dof_data,
+        std::vector<DataComponentInterpretation::DataComponentInterpretation>(
+          dim, DataComponentInterpretation::component_is_part_of_vector));
+    };
+    add_nodal(displacement, "displacement", nodal[0]);
+    if (velocity != nullptr)
+      add_nodal(*velocity, "velocity", nodal[1]);
 
     const auto averages = model.mechanics->cell_averages(displacement);
     std::vector<std::pair<std::string, Vector<float>>> cell_data;

@@ -3,29 +3,84 @@
 namespace Signoton
 {
   void
-  OutputParameters::add_parameters(ParameterHandler &handler)
+  OutputParameters::add_parameters(ParameterHandler &handler,
+                                   const bool        is_dynamic)
   {
     handler.enter_subsection("Output");
     handler.add_parameter("Directory",
                           directory,
                           "Where results go; empty: output/ and the name of "
                           "the scene.");
-    handler.add_parameter("Fields every",
-                          fields_every,
-                          "Write fields for ParaView every n-th step and "
-                          "after the last; 0: never.");
+    if (!is_dynamic)
+      handler.add_parameter("Fields every",
+                            fields_every,
+                            "Write fields for ParaView every n-th step and "
+                            "after the last; 0: never.");
     handler.add_parameter("Checkpoint every",
                           checkpoint_every,
                           "Write a checkpoint every n-th step and after the "
                           "last; 0: never.");
     handler.add_parameter("Probe points",
                           probe_text,
-                          "Points whose displacement is a column of the "
-                          "statistics: 'x, y; x, y' in 2D.");
-    handler.add_parameter("Newton history",
-                          newton_history,
-                          "Print every Newton iteration.");
+                          "Points whose displacement (in dynamics: and "
+                          "velocity) is a column of the statistics: 'x, y; x, "
+                          "y' in 2D.");
+    if (!is_dynamic)
+      handler.add_parameter("Newton history",
+                            newton_history,
+                            "Print every Newton iteration.");
     handler.leave_subsection();
+  }
+
+  void
+  TimeIntegration::add_parameters(ParameterHandler &handler)
+  {
+    handler.enter_subsection("Time integration");
+    handler.add_parameter("Start time", start, "In s.");
+    handler.add_parameter("End time", end, "In s.");
+    handler.add_parameter("Time step",
+                          time_step,
+                          "In s; 0: the stable one by 'Safety'.",
+                          Patterns::Double(0.));
+    handler.add_parameter("Safety",
+                          safety,
+                          "The step as a part of the stable one, in which the "
+                          "fastest wave crosses the smallest cell.",
+                          Patterns::Double(0.01, 1.));
+    handler.add_parameter("Linear shock viscosity",
+                          shock_viscosity.linear,
+                          "Without unit; damps oscillations behind fronts. By "
+                          "default zero if all materials are elastic.",
+                          Patterns::Double(0., 2.));
+    handler.add_parameter("Quadratic shock viscosity",
+                          shock_viscosity.quadratic,
+                          "Without unit; spreads strong fronts over cells. By "
+                          "default zero if all materials are elastic.",
+                          Patterns::Double(0., 20.));
+    handler.add_parameter("Quiet zones",
+                          quiet_zones,
+                          "Skip cells that no wave has reached.");
+    handler.add_parameter("Statistics every",
+                          statistics_every,
+                          "A line of statistics every n-th step and after the "
+                          "last.",
+                          Patterns::Integer(1));
+    handler.add_parameter("Snapshots",
+                          snapshots,
+                          "Fields for ParaView at the start and as often as "
+                          "this, evenly over the run; 0: never.");
+    handler.leave_subsection();
+  }
+
+  void
+  TimeIntegration::check(const SceneFile &file) const
+  {
+    if (!(end > start))
+      throw UserError(file.where({"Time integration"}, "End time"),
+                      Utilities::to_string(end),
+                      "a time after the start at " +
+                        Utilities::to_string(start),
+                      "set it");
   }
 
   void

@@ -1,5 +1,4 @@
 #include <signoton/drivers/static_problem.h>
-#include <signoton/operators/external_force.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
@@ -21,6 +20,7 @@ namespace Signoton
     const auto &owned = space.dof_handler.locally_owned_dofs();
     model.mechanics->initialize_vector(load);
     model.mechanics->initialize_vector(load_of_mesh);
+    surface_load.reinit(space, model.conditions);
 
     // The pattern has the rows and columns of boundary conditions, too: they
     // may eliminate one unknown of a node only, and multigrid aggregates whole
@@ -59,18 +59,17 @@ namespace Signoton
     const auto timer = model.ledger.time("external force");
     auto      &space = *model.space;
     space.update_constraints(model.conditions);
-    external_force(space,
-                   model.conditions,
-                   model.materials,
-                   model.gravity.get(),
-                   space.constraints,
-                   load);
-    external_force(space,
-                   model.conditions,
-                   model.materials,
-                   model.gravity.get(),
-                   space.mesh_constraints,
-                   load_of_mesh);
+    const auto collect = [&](const AffineConstraints<double> &constraints,
+                             VectorType                      &force) {
+      force = 0.;
+      if (model.gravity)
+        add_body_force(
+          space, model.materials, *model.gravity, constraints, force);
+      surface_load.add(constraints, force);
+      force.compress(VectorOperation::add);
+    };
+    collect(space.constraints, load);
+    collect(space.mesh_constraints, load_of_mesh);
 
     double sum = load_of_mesh.l1_norm();
     for (const auto &line : space.constraints.get_lines())

@@ -284,7 +284,7 @@ namespace Signoton
         model.set_time(time);
         setup_unknowns();
         model.mechanics->initialize_vector(displacement);
-        checkpoint.load_fields(history_space.get(), displacement);
+        checkpoint.load_fields(history_space.get(), {&displacement});
         model.space->mesh_constraints.distribute(displacement);
         results.resume(checkpoint);
       }
@@ -307,7 +307,7 @@ namespace Signoton
             checkpoint.set("time", time);
             checkpoint.set("step size", step_size);
             results.save(checkpoint);
-            checkpoint.write(history_space.get(), displacement);
+            checkpoint.write(history_space.get(), {&displacement});
           }
       }
     results.finish();

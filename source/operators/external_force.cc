@@ -6,121 +6,136 @@
 
 namespace Signoton
 {
-  namespace
-  {
-    /** Add $\int f\cdot v$ for force densities at the quadrature points. */
-    template <int dim>
-    void
-    integrate(const Space<dim>                  &space,
-              const FEValuesBase<dim>           &values,
-              const std::vector<Tensor<1, dim>> &density,
-              Vector<double>                    &cell_force)
-    {
-      for (unsigned int i = 0; i < values.dofs_per_cell; ++i)
-        {
-          const unsigned int c = space.fe.system_to_component_index(i).first;
-          for (const unsigned int q : values.quadrature_point_indices())
-            cell_force[i] += density[q][c] * values.shape_value(i, q) *
-                             space.weight(values.quadrature_point(q)) *
-                             values.JxW(q);
-        }
-    }
-
-    template <int dim>
-    Tensor<1, dim>
-    vector_value(const Function<dim> &function, const dealii::Point<dim> &p)
-    {
-      Tensor<1, dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = function.value(p, d);
-      return result;
-    }
-  } // namespace
-
   template <int dim>
   void
-  external_force(const Space<dim>                      &space,
-                 const BoundaryConditions<dim>         &conditions,
+  add_body_force(const Space<dim>                      &space,
                  const std::vector<Rheology::Material> &materials,
-                 const Function<dim>                   *gravity,
+                 const Function<dim>                   &gravity,
                  const AffineConstraints<double>       &constraints,
                  VectorType                            &force)
   {
-    const auto flags =
-      update_values | update_quadrature_points | update_JxW_values;
-    FEValues<dim> cell_values(space.mapping, space.fe, space.quadrature, flags);
-    FEFaceValues<dim> face_values(space.mapping,
-                                  space.fe,
-                                  QGauss<dim - 1>(space.degree + 2),
-                                  flags | update_normal_vectors);
+    boost::container::flat_map<types::material_id, double> density;
+    for (const auto &material : materials)
+      density[material.id] = material.density;
+    FEValues<dim>                        values(space.mapping,
+                         space.fe,
+                         space.quadrature,
+                         update_values | update_quadrature_points |
+                           update_JxW_values);
+    Vector<double>                       cell_force(space.fe.n_dofs_per_cell());
+    std::vector<types::global_dof_index> dofs(cell_force.size());
+    for (const auto &cell : space.dof_handler.active_cell_iterators())
+      {
+        if (!cell->is_locally_owned() || !(density[cell->material_id()] > 0.))
+          continue;
+        values.reinit(cell);
+        cell_force = 0.;
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const auto  &p = values.quadrature_point(q);
+            const double mass =
+              density[cell->material_id()] * space.weight(p) * values.JxW(q);
+            Tensor<1, dim> g;
+            for (unsigned int d = 0; d < dim; ++d)
+              g[d] = gravity.value(p, d);
+            for (unsigned int i = 0; i < cell_force.size(); ++i)
+              cell_force[i] += mass * values.shape_value(i, q) *
+                               g[space.fe.system_to_component_index(i).first];
+          }
+        cell->get_dof_indices(dofs);
+        constraints.distribute_local_to_global(cell_force, dofs, force);
+      }
+  }
+
+  template <int dim>
+  void
+  SurfaceLoad<dim>::reinit(const Space<dim>              &space,
+                           const BoundaryConditions<dim> &conditions)
+  {
+    faces.clear();
     boost::container::flat_map<types::boundary_id,
                                const BoundaryCondition<dim> *>
       loaded;
     for (const auto &condition : conditions)
       if (condition.traction || condition.pressure)
         loaded[condition.id] = &condition;
-    boost::container::flat_map<types::material_id, double> density;
-    for (const auto &material : materials)
-      density[material.id] = material.density;
-
-    force = 0.;
-    Vector<double>              cell_force(space.fe.n_dofs_per_cell());
-    std::vector<Tensor<1, dim>> cell_density(space.quadrature.size());
-    std::vector<Tensor<1, dim>> face_density(face_values.n_quadrature_points);
-    std::vector<types::global_dof_index> dofs(cell_force.size());
+    if (loaded.empty())
+      return;
+    FEFaceValues<dim>                    values(space.mapping,
+                             space.fe,
+                             QGauss<dim - 1>(space.degree + 2),
+                             update_values | update_quadrature_points |
+                               update_JxW_values | update_normal_vectors);
+    std::vector<types::global_dof_index> dofs(space.fe.n_dofs_per_cell());
     for (const auto &cell : space.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          bool any   = false;
-          cell_force = 0.;
-          if (gravity && density[cell->material_id()] > 0.)
-            {
-              cell_values.reinit(cell);
-              for (const unsigned int q :
-                   cell_values.quadrature_point_indices())
-                cell_density[q] =
-                  density[cell->material_id()] *
-                  vector_value(*gravity, cell_values.quadrature_point(q));
-              integrate(space, cell_values, cell_density, cell_force);
-              any = true;
-            }
-          for (const auto f : cell->face_indices())
-            if (cell->face(f)->at_boundary() && !loaded.empty())
-              if (const auto found = loaded.find(cell->face(f)->boundary_id());
-                  found != loaded.end())
+      {
+        if (!cell->is_locally_owned() || !cell->at_boundary())
+          continue;
+        for (const auto f : cell->face_indices())
+          {
+            if (!cell->face(f)->at_boundary())
+              continue;
+            const auto found = loaded.find(cell->face(f)->boundary_id());
+            if (found == loaded.end())
+              continue;
+            values.reinit(cell, f);
+            cell->get_dof_indices(dofs);
+            Face face;
+            face.condition = found->second;
+            face.points    = values.get_quadrature_points();
+            face.normals   = values.get_normal_vectors();
+            std::vector<unsigned int> on_face;
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              if (space.fe.has_support_on_face(i, f))
                 {
-                  face_values.reinit(cell, f);
-                  for (const unsigned int q :
-                       face_values.quadrature_point_indices())
-                    {
-                      const auto &p   = face_values.quadrature_point(q);
-                      face_density[q] = Tensor<1, dim>();
-                      if (found->second->traction)
-                        face_density[q] +=
-                          vector_value(*found->second->traction, p);
-                      if (found->second->pressure)
-                        face_density[q] -= found->second->pressure->value(p) *
-                                           face_values.normal_vector(q);
-                    }
-                  integrate(space, face_values, face_density, cell_force);
-                  any = true;
+                  on_face.push_back(i);
+                  face.dofs.push_back(dofs[i]);
+                  face.component.push_back(
+                    space.fe.system_to_component_index(i).first);
                 }
-          if (any)
-            {
-              cell->get_dof_indices(dofs);
-              constraints.distribute_local_to_global(cell_force, dofs, force);
-            }
-        }
-    force.compress(VectorOperation::add);
+            face.weights.reinit(on_face.size(), face.points.size());
+            for (unsigned int i = 0; i < on_face.size(); ++i)
+              for (const unsigned int q : values.quadrature_point_indices())
+                face.weights(i, q) = values.shape_value(on_face[i], q) *
+                                     space.weight(face.points[q]) *
+                                     values.JxW(q);
+            faces.push_back(std::move(face));
+          }
+      }
+  }
+
+  template <int dim>
+  void
+  SurfaceLoad<dim>::add(const AffineConstraints<double> &constraints,
+                        VectorType                      &force) const
+  {
+    Vector<double> face_force;
+    for (const Face &face : faces)
+      {
+        face_force.reinit(face.dofs.size());
+        for (unsigned int q = 0; q < face.points.size(); ++q)
+          {
+            Tensor<1, dim> density;
+            if (face.condition->traction)
+              for (unsigned int d = 0; d < dim; ++d)
+                density[d] = face.condition->traction->value(face.points[q], d);
+            if (face.condition->pressure)
+              density -= face.condition->pressure->value(face.points[q]) *
+                         face.normals[q];
+            for (unsigned int i = 0; i < face.dofs.size(); ++i)
+              face_force[i] += face.weights(i, q) * density[face.component[i]];
+          }
+        constraints.distribute_local_to_global(face_force, face.dofs, force);
+      }
   }
 
 #define INSTANTIATE(dim)                                                     \
-  template void external_force<dim>(const Space<dim> &,                      \
-                                    const BoundaryConditions<dim> &,         \
+  template void add_body_force<dim>(const Space<dim> &,                      \
                                     const std::vector<Rheology::Material> &, \
-                                    const Function<dim> *,                   \
+                                    const Function<dim> &,                   \
                                     const AffineConstraints<double> &,       \
-                                    VectorType &);
+                                    VectorType &);                           \
+  template class SurfaceLoad<dim>;
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -49,6 +49,11 @@ namespace Signoton
     void
     set_time_step(const double time_step) override;
     void
+    set_initial_state(
+      const typename Mechanics<dim>::InitialState &state) override;
+    void
+    set_shock_viscosity(const ShockViscosity &viscosity) override;
+    void
     initialize_vector(VectorType &vector) const override;
     double
     internal_force(const VectorType &displacement,
@@ -62,6 +67,15 @@ namespace Signoton
     void
     assemble(TrilinosWrappers::SparseMatrix &matrix,
              const double                    regularization) override;
+    DynamicSums
+    dynamic_force(const VectorType &displacement,
+                  VectorType       &force,
+                  const bool        with_energies,
+                  const double      quiet) override;
+    void
+    remember_dilatation(const VectorType &displacement) override;
+    double
+    stable_time_step() override;
     void
     commit() override;
     EnergyBalance
@@ -85,6 +99,8 @@ namespace Signoton
   private:
     static constexpr unsigned int n_tensor_entries =
       Embedding::tensor_entries.size();
+    static constexpr unsigned int n_points =
+      Utilities::pow(degree + 1, dim); ///< of a cell
 
     /** Index in the MatrixFree data of the two sets of constraints. */
     enum DofIndex : unsigned int
@@ -94,14 +110,14 @@ namespace Signoton
     };
 
     /** What a sweep does with the response at each point. */
-    struct Point
+    struct PointResponse
     {
       unsigned int                      batch;
       unsigned int                      q;
       Number                            weight; ///< volume of the point in m^3
       const Rheology::Response<Number> &response;
     };
-    using Visitor = std::function<void(const Point &)>;
+    using Visitor = std::function<void(const PointResponse &)>;
 
     void
     find_materials();
@@ -125,8 +141,19 @@ namespace Signoton
     write_history(const Rheology::History<Law, Number> &history,
                   Number                               *values);
 
+    /** The symmetric gradient of what the cell has read. */
     Tensor2<Number>
     strain(const Cell &cell, const unsigned int q) const;
+    /** The same and the initial strain. */
+    Tensor2<Number>
+    total_strain(const Cell        &cell,
+                 const unsigned int batch,
+                 const unsigned int q) const;
+    /** A tensor of the current batch in an array of rest values. */
+    static Tensor2<Number>
+    tensor_at(const AlignedVector<Number> &values,
+              const unsigned int           batch,
+              const unsigned int           q);
     void
     submit(Cell                  &cell,
            const unsigned int     q,
@@ -164,6 +191,32 @@ namespace Signoton
               const VectorType &displacement,
               const Visitor    &visitor);
 
+    // mechanics_dynamics.templates.h
+    /** Strains, stresses and energies of the initial state. */
+    void
+    find_rest();
+    void
+    integrate_rest();
+    void
+    refuse_contradiction(const double difference, const Point<dim> &where);
+    void
+    find_sizes();
+    /** Whether no unknown that the cell has read exceeds the displacement of
+     *  quiet cells. */
+    bool
+    is_quiet(const Cell &cell) const;
+    template <unsigned int request>
+    DynamicSums
+    dynamic_sweep(const VectorType &displacement, VectorType &force);
+    template <unsigned int request, typename Law>
+    void
+    dynamic_run(const Law        &law,
+                Cell             &cell,
+                const Range      &run,
+                const VectorType &displacement,
+                VectorType       &force,
+                DynamicSums      &sums);
+
     /** The linear cell operation on values that have been read. */
     void
     tangent_operation(Cell &cell, const double regularization) const;
@@ -172,6 +225,9 @@ namespace Signoton
     const std::vector<Rheology::Material> &materials;
     std::vector<Rheology::Law>             laws;
     double                                 time_step = 1.;
+    typename Mechanics<dim>::InitialState  initial_state;
+    ShockViscosity                         shock_viscosity;
+    double                                 quiet_displacement = -1.; ///< in m
     std::vector<unsigned int>              material_of_id;
 
     Data                      data;
@@ -179,7 +235,15 @@ namespace Signoton
     /** Elastic tangents by material: regularization, and what linear
      *  materials have instead of a tangent at every point. */
     std::vector<std::array<Number, n_tangent_entries<Embedding>>>
-                             elastic_tangents;
+      elastic_tangents;
+    // Empty unless there is an initial state: tensors by batch and point, and
+    // by batch the energy in J.
+    AlignedVector<Number> rest_strain, rest_stress, rest_energy;
+    VectorType            rest_force;
+    // Empty unless there is shock viscosity: the size of a cell in m, and the
+    // dilatation before the step at each point.
+    AlignedVector<Number> cell_size, dilatation;
+
     PointHistory             history;
     AlignedVector<Number>    tangents;
     std::vector<std::size_t> tangent_offset;

@@ -1,6 +1,7 @@
 #ifndef signoton_operators_mechanics_kernel_templates_h
 #define signoton_operators_mechanics_kernel_templates_h
 
+#include "mechanics_dynamics.templates.h"
 #include "mechanics_kernel.h"
 #include "mechanics_points.templates.h"
 
@@ -70,7 +71,7 @@ namespace Signoton
     typename Data::AdditionalData options;
     options.tasks_parallel_scheme = Data::AdditionalData::none;
     options.mapping_update_flags  = update_gradients | update_JxW_values;
-    if constexpr (Embedding::axisymmetric)
+    if (Embedding::axisymmetric || initial_state)
       options.mapping_update_flags |= update_values | update_quadrature_points;
     // lanes of a batch share a material
     options.cell_vectorization_categories_strict = true;
@@ -87,6 +88,10 @@ namespace Signoton
                 std::vector<QGauss<1>>{QGauss<1>(degree + 1)},
                 options);
     find_materials();
+    if (initial_state)
+      find_rest();
+    if (shock_viscosity)
+      find_sizes();
   }
 
   template <typename Embedding, int degree>
@@ -94,7 +99,6 @@ namespace Signoton
   MechanicsKernel<Embedding, degree>::find_materials()
   {
     const unsigned int        n_batches = data.n_cell_batches();
-    const unsigned int        n_points  = Utilities::pow(degree + 1, dim);
     std::vector<unsigned int> widths(n_batches);
     material_of_batch.resize(n_batches);
     tangent_offset.assign(n_batches + 1, 0);
@@ -159,6 +163,32 @@ namespace Signoton
     if constexpr (Embedding::axisymmetric)
       result.access_raw_entry(2) =
         cell.get_value(q)[0] / cell.quadrature_point(q)[0];
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  Tensor2<typename MechanicsKernel<Embedding, degree>::Number>
+  MechanicsKernel<Embedding, degree>::total_strain(const Cell        &cell,
+                                                   const unsigned int batch,
+                                                   const unsigned int q) const
+  {
+    if (rest_strain.empty())
+      return strain(cell, q);
+    return strain(cell, q) + tensor_at(rest_strain, batch, q);
+  }
+
+  template <typename Embedding, int degree>
+  Tensor2<typename MechanicsKernel<Embedding, degree>::Number>
+  MechanicsKernel<Embedding, degree>::tensor_at(
+    const AlignedVector<Number> &values,
+    const unsigned int           batch,
+    const unsigned int           q)
+  {
+    Tensor2<Number>   result;
+    const std::size_t first =
+      (std::size_t(batch) * n_points + q) * n_tensor_entries;
+    for (unsigned int e = 0; e < n_tensor_entries; ++e)
+      result.access_raw_entry(Embedding::tensor_entries[e]) = values[first + e];
     return result;
   }
 
@@ -258,7 +288,7 @@ namespace Signoton
         for (unsigned int q = 0; q < cell.n_q_points; ++q)
           {
             read_history<Law>(history.accepted(batch, q), accepted);
-            law.template update<request>(strain(cell, q),
+            law.template update<request>(total_strain(cell, batch, q),
                                          accepted,
                                          next,
                                          response);

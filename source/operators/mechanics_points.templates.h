@@ -27,10 +27,8 @@ namespace Signoton
         for (unsigned int q = 0; q < cell.n_q_points; ++q)
           {
             read_history<Law>(history.accepted(batch, q), accepted);
-            law.template update<Rheology::energies>(strain(cell, q),
-                                                    accepted,
-                                                    next,
-                                                    response);
+            law.template update<Rheology::energies>(
+              total_strain(cell, batch, q), accepted, next, response);
             visitor({batch, q, weight(cell, q), response});
           }
       }
@@ -61,7 +59,7 @@ namespace Signoton
     const VectorType &displacement)
   {
     std::array<double, 3 + Rheology::n_regions> sums{};
-    visit_points(displacement, [&](const Point &point) {
+    visit_points(displacement, [&](const PointResponse &point) {
       for (unsigned int i = 0;
            i < data.n_active_entries_per_cell_batch(point.batch);
            ++i)
@@ -92,7 +90,7 @@ namespace Signoton
   {
     std::vector<CellAverages> result(space.mesh.n_active_cells());
     std::vector<double>       volume(result.size(), 0.);
-    visit_points(displacement, [&](const Point &point) {
+    visit_points(displacement, [&](const PointResponse &point) {
       for (unsigned int i = 0;
            i < data.n_active_entries_per_cell_batch(point.batch);
            ++i)
@@ -142,7 +140,7 @@ namespace Signoton
     std::vector<std::vector<types::global_dof_index>> dofs(
       Number::size(),
       std::vector<types::global_dof_index>(points.fe.n_dofs_per_cell()));
-    visit_points(displacement, [&](const Point &point) {
+    visit_points(displacement, [&](const PointResponse &point) {
       const auto stress = to_mesh<dim>(point.response.stress);
       for (unsigned int i = 0;
            i < data.n_active_entries_per_cell_batch(point.batch);

@@ -245,6 +245,24 @@ namespace Signoton::Rheology
     });
   }
 
+  Moduli
+  stiffest_moduli(const Scheme &scheme, const double time_step)
+  {
+    const double factor = 2. / time_step;
+    return composed(scheme, [factor](const Scheme &element) -> Moduli {
+      switch (element.kind)
+        {
+          case Kind::spring:
+            return element.moduli;
+          case Kind::damper:
+            return {factor * element.moduli.bulk,
+                    factor * element.moduli.shear};
+          default:
+            return {infinite, infinite};
+        }
+    });
+  }
+
   namespace
   {
     /** Groups in groups of the same kind are one group, and the springs of a

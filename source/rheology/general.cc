@@ -50,6 +50,7 @@ namespace Signoton::Rheology
           {
             set_lane(response.stored_energy, i, step.stored);
             set_lane(response.dissipation, i, step.dissipated);
+            set_lane(response.viscous_dissipation, i, step.viscous);
             set_lane(response.contact_strain,
                      i,
                      from_mandel(network->contact_strain()));

@@ -3,6 +3,7 @@
 #include <signoton/rheology/material.h>
 
 #include <charconv>
+#include <cmath>
 
 namespace Signoton::Rheology
 {
@@ -202,6 +203,28 @@ namespace Signoton::Rheology
     const Scheme             tree   = scheme(ratio);
     const std::optional<Law> closed = closed_form(tree);
     return closed ? *closed : General(tree);
+  }
+
+  double
+  Material::longitudinal_speed() const
+  {
+    const Moduli moduli = elasticity();
+    return std::sqrt((moduli.bulk + 4. / 3. * moduli.shear) / density);
+  }
+
+  double
+  Material::crossing_time(const double distance) const
+  {
+    // Dampers are the stiffer the shorter the step: a fixed point, from above,
+    // where the error shrinks by half each time or faster.
+    const Scheme tree = scheme();
+    double       time = 1e30;
+    for (unsigned int i = 0; i < 100; ++i)
+      {
+        const Moduli m = stiffest_moduli(tree, time);
+        time = distance * std::sqrt(density / (m.bulk + 4. / 3. * m.shear));
+      }
+    return time;
   }
 
   std::string

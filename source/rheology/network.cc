@@ -135,8 +135,8 @@ namespace Signoton::Rheology
                    stress_of(nodes[leaf.node].stiffness, leaf.reference));
     sweep(step.strain);
     step.stress = nodes[0].stress;
-    step.stored = step.dissipated = 0.;
-    double half_viscous = 0., hardening = 0.;
+    step.stored = step.dissipated = step.viscous = 0.;
+    double hardening                             = 0.;
     for (const Node &node : nodes)
       if (node.kind == Kind::spring)
         step.stored += 0.5 * dot(node.stress, node.strain);
@@ -146,7 +146,7 @@ namespace Signoton::Rheology
             dot(node.stress,
                 add_scaled(node.strain, -1., accepted_tensors[node.memory]));
           step.dissipated += work;
-          half_viscous += 0.5 * work;
+          step.viscous += work;
           new_tensors[node.memory] = node.strain;
         }
     for (const Leaf &leaf : leaves)
@@ -169,7 +169,8 @@ namespace Signoton::Rheology
             new_scalars[node.hardening] = shear;
           }
       }
-    step.potential  = step.stored + step.dissipated - half_viscous + hardening;
+    step.potential =
+      step.stored + step.dissipated - 0.5 * step.viscous + hardening;
     double stresses = 0.;
     for (const Leaf &leaf : leaves)
       stresses += dot(leaf.admissible, leaf.admissible);

@@ -49,21 +49,32 @@ namespace Signoton
       names_of(materials, [](const auto &m) { return m.has_binder(); });
     const auto heavy =
       names_of(materials, [](const auto &m) { return m.density > 0.; });
+    const bool tangent = !inelastic.empty() && !model.is_dynamic;
     const bool gravity = model.gravity && !heavy.empty();
     const bool adaptive =
       model.refinement.cycles(1) > 0 || model.refinement.is_used_later();
 
-    const unsigned int number = sizeof(double);
+    const bool initial = model.initial_strain || model.initial_stress;
+    const bool shock =
+      model.is_dynamic && bool(model.time_integration.shock_viscosity);
+    std::vector<std::string> with_dashpots;
+    for (const auto &condition : model.conditions)
+      if (condition.absorbs())
+        with_dashpots.push_back(condition.name);
+    const std::string absorbing = join(with_dashpots, ", ");
+
+    const unsigned int number = sizeof(double), n_stress = dim == 2 ? 4 : 6;
     return {{"elasticity", true, "every material has a spring", 0},
             {"rigid contact (no tension)",
              !contact.empty(),
              contact.empty() ? "no granular rheology" : "materials " + contact,
              0},
             {"consistent tangent",
-             !inelastic.empty(),
+             tangent,
+             model.is_dynamic  ? "explicit time integration needs none" :
              inelastic.empty() ? "all materials are linear" :
                                  "materials " + inelastic,
-             inelastic.empty() ? 0 : tangent_entries(*model.space) * number},
+             tangent ? tangent_entries(*model.space) * number : 0},
             {"history",
              !remembering.empty(),
              remembering.empty() ?
@@ -88,7 +99,24 @@ namespace Signoton
              adaptive,
              adaptive ? "Refinement / Cycles" : "no Refinement / Cycles",
              0},
-            {"inertia", false, "Analysis = statics", 0}};
+            {"inertia",
+             model.is_dynamic,
+             model.is_dynamic ? "Analysis = dynamics" : "Analysis = statics",
+             0},
+            {"initial state",
+             initial,
+             initial ? "Initial state / Strain or Stress" : "no Initial state",
+             initial ? 2 * n_stress * number : 0},
+            {"shock viscosity",
+             shock,
+             shock ? "Time integration / ... shock viscosity" :
+                     "Analysis = statics, or zero",
+             shock ? number : 0},
+            {"absorbing boundary",
+             !absorbing.empty(),
+             absorbing.empty() ? "no Boundaries / Absorbing" :
+                                 "boundaries " + absorbing,
+             0}};
   }
 
   template <int dim>
@@ -96,9 +124,13 @@ namespace Signoton
   explain(const Model<dim> &model)
   {
     std::ostringstream out;
-    out << "Equations: find the displacement u that minimizes\n"
-           "  sum over the body of W_n(strain(u)) - work of the loads,\n"
-           "  strain = sym grad u, stress = dW_n/dstrain"
+    out << (model.is_dynamic ?
+              "Equations: density * acceleration = div stress + load,\n"
+              "  stress by the material from strain = sym grad u and history;\n"
+              "  central differences in time, diagonal mass" :
+              "Equations: find the displacement u that minimizes\n"
+              "  sum over the body of W_n(strain(u)) - work of the loads,\n"
+              "  strain = sym grad u, stress = dW_n/dstrain")
         << (dim == 3 ? ", in three dimensions" :
             model.space->axisymmetric ?
                        ", rotationally symmetric about x = 0" :
@@ -123,7 +155,7 @@ namespace Signoton
     // a row couples with the unknowns of the patch around a node, on average
     const double row = dim * std::pow(model.space->degree == 1 ? 3. : 4., dim);
     const auto   forecast = [&](const std::string &when, const double growth) {
-      const double matrix = 12. * growth * n * row;
+      const double matrix = model.is_dynamic ? 0. : 12. * growth * n * row;
       // Multigrid takes about the matrix again; factors fill up like n log n in
       // the plane, and more than anyone should wait for in space.
       const double solver = model.linear_solver.is_direct(growth * n, dim) ?
@@ -133,7 +165,7 @@ namespace Signoton
           << std::fixed << std::setprecision(1) << std::setw(10)
           << growth * points * bytes / 1e6 << std::setw(10) << matrix / 1e6
           << std::setw(10) << solver / 1e6 << std::setw(10)
-          << 30. * 8. * growth * n / 1e6 << "\n";
+          << (model.is_dynamic ? 12. : 30.) * 8. * growth * n / 1e6 << "\n";
     };
     out << "\nUnknowns " << n << ", cells " << cells << ", points " << points
         << "\nMemory forecast in MB, besides some 200 MB of libraries a rank:\n"

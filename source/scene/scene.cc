@@ -1,4 +1,5 @@
 #include <signoton/base/scene_template.h>
+#include <signoton/drivers/explicit_dynamics.h>
 #include <signoton/drivers/point.h>
 #include <signoton/drivers/statics.h>
 #include <signoton/scene/requirements.h>
@@ -19,7 +20,8 @@ namespace Signoton
   Scene<dim>::Scene(const MPI_Comm &communicator, const SceneFile &file)
     : model(communicator)
   {
-    model.file = file;
+    model.file       = file;
+    model.is_dynamic = file.value({}, "Analysis", analysis) == "dynamics";
     for (const auto &name : file.subsections({"Materials"}))
       model.materials.emplace_back(name);
     for (const auto &name : file.subsections({"Boundaries"}))
@@ -46,8 +48,9 @@ namespace Signoton
                         dim == 2 ? "plane strain|axisymmetric" : "solid"));
     prm.add_parameter("Analysis",
                       analysis,
-                      "statics: equilibrium along a load history.",
-                      Patterns::Selection("statics"));
+                      "statics: equilibrium along a load history. dynamics: "
+                      "waves, with the inertia of all materials.",
+                      Patterns::Selection("statics|dynamics"));
 
     model.geometry.add_parameters(prm);
 
@@ -89,7 +92,30 @@ namespace Signoton
                       "one expression per direction separated by ';'.");
     prm.leave_subsection();
 
-    model.load_steps.add_parameters(prm);
+    if (model.is_dynamic)
+      {
+        prm.enter_subsection("Initial state");
+        const std::string entries =
+          dim == 2 ? "xx; yy; zz; xy" : "xx; yy; zz; xy; xz; yz";
+        prm.add_parameter("Strain",
+                          initial_strain_text,
+                          "Strain before anything moves, expressions " +
+                            entries +
+                            ": where it opens a contact, the medium is "
+                            "loosened.");
+        prm.add_parameter("Stress",
+                          initial_stress_text,
+                          "Stress before anything moves in Pa, expressions " +
+                            entries + ".");
+        prm.add_parameter("Velocity",
+                          initial_velocity_text,
+                          "In m/s, one expression per direction separated by "
+                          "';'.");
+        prm.leave_subsection();
+        model.time_integration.add_parameters(prm);
+      }
+    else
+      model.load_steps.add_parameters(prm);
 
     prm.enter_subsection("Discretization");
     prm.add_parameter("Degree",
@@ -98,16 +124,24 @@ namespace Signoton
                       Patterns::Integer(1, 2));
     prm.leave_subsection();
 
-    model.refinement.add_parameters(prm);
-    model.newton.add_parameters(prm);
-    model.linear_solver.add_parameters(prm);
-    model.output.add_parameters(prm);
+    if (!model.is_dynamic)
+      {
+        model.refinement.add_parameters(prm);
+        model.newton.add_parameters(prm);
+        model.linear_solver.add_parameters(prm);
+      }
+    model.output.add_parameters(prm, model.is_dynamic);
 
     prm.enter_subsection("Reference solution");
     prm.add_parameter("Displacement",
                       reference_text,
                       "Exact displacement in m to measure the error against, "
                       "one expression per direction separated by ';'.");
+    if (model.is_dynamic)
+      prm.add_parameter("Velocity",
+                        reference_velocity_text,
+                        "Exact velocity in m/s, in the same way; its error is "
+                        "measured in the L1 norm.");
     prm.leave_subsection();
   }
 
@@ -142,7 +176,15 @@ namespace Signoton
       model.reference =
         vector_function(reference_text,
                         file.where({"Reference solution"}, "Displacement"));
-    model.load_steps.check(file);
+    if (!reference_velocity_text.empty())
+      model.reference_velocity =
+        vector_function(reference_velocity_text,
+                        file.where({"Reference solution"}, "Velocity"));
+    model.gravity_varies = depends_on_time(gravity_text);
+    if (model.is_dynamic)
+      interpret_dynamics();
+    else
+      model.load_steps.check(file);
     if (!file.has({"Refinement"}, "Minimum level"))
       model.refinement.set_minimum_level(model.geometry.initial_refinement);
     model.refinement.check(file);
@@ -183,6 +225,70 @@ namespace Signoton
     std::istringstream lines(all.str());
     for (std::string line; std::getline(lines, line);)
       model.resolved_scene += "# " + line + "\n";
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::interpret_dynamics()
+  {
+    const SceneFile      &file = model.file;
+    const SceneFile::Path path = {"Initial state"};
+    model.time_integration.check(file);
+    for (const auto &material : model.materials)
+      if (!(material.density > 0.))
+        throw UserError(file.where({"Materials", material.name}, "Density"),
+                        file.has({"Materials", material.name}, "Density") ?
+                          "density zero" :
+                          "no density",
+                        "a positive number in kg/m^3: waves need inertia",
+                        "add 'set Density = ...'");
+    const bool linear =
+      std::all_of(model.materials.begin(),
+                  model.materials.end(),
+                  [](const auto &m) { return m.is_elastic(); });
+    auto &viscosity = model.time_integration.shock_viscosity;
+    if (linear && !file.has({"Time integration"}, "Linear shock viscosity"))
+      viscosity.linear = 0.;
+    if (linear && !file.has({"Time integration"}, "Quadratic shock viscosity"))
+      viscosity.quadratic = 0.;
+    const auto function = [&](const std::string &key,
+                              const std::string &text,
+                              const unsigned int n_components) {
+      const std::string where = file.where(path, key);
+      return text.empty() ?
+               nullptr :
+               make_function<dim>(split_components(text, n_components, where),
+                                  constants,
+                                  where);
+    };
+    constexpr unsigned int n_entries = dim == 2 ? 4 : 6;
+    model.initial_strain   = function("Strain", initial_strain_text, n_entries);
+    model.initial_stress   = function("Stress", initial_stress_text, n_entries);
+    model.initial_velocity = function("Velocity", initial_velocity_text, dim);
+    for (const auto &material : model.materials)
+      if (material.is_viscous() &&
+          (model.initial_strain || model.initial_stress))
+        throw UserError(file.where(path),
+                        "an initial strain or stress, and dampers in the "
+                        "material '" +
+                          material.name + "'",
+                        "an initial state without dampers: it does not tell "
+                        "how they were stretched",
+                        "let the load grow from zero instead");
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::check_boundaries() const
+  {
+    if (model.is_dynamic)
+      return;
+    for (const auto &condition : model.conditions)
+      if (const std::string key = condition.dynamic_key(); !key.empty())
+        throw UserError(model.file.where({"Boundaries", condition.name}, key),
+                        "'" + key + "' with Analysis = statics",
+                        "Analysis = dynamics",
+                        "remove it, or 'set Analysis = dynamics'");
   }
 
   template <int dim>
@@ -292,13 +398,23 @@ namespace Signoton
     check_materials();
     for (auto &condition : model.conditions)
       condition.initialize(model.file, space.boundary.names, constants);
+    check_boundaries();
     check_mesh();
     model.mechanics = make_mechanics(space, model.materials);
 
     const auto timer = model.ledger.time("setup");
-    model.set_time(model.load_steps.start);
+    model.set_time(model.is_dynamic ? model.time_integration.start :
+                                      model.load_steps.start);
     space.distribute_dofs();
     space.update_constraints(model.conditions);
+    if (model.is_dynamic)
+      {
+        model.mechanics->set_initial_state(
+          {model.initial_strain.get(),
+           model.initial_stress.get(),
+           model.file.where({"Initial state"})});
+        return;
+      }
     check_supports();
     for (const auto &material : model.materials)
       if (material.may_lose_stiffness() && !(model.newton.regularization > 0.))
@@ -307,9 +423,12 @@ namespace Signoton
 
   template <int dim>
   void
-  Scene<dim>::print_template(std::ostream &out)
+  Scene<dim>::print_template(const std::string &analysis, std::ostream &out)
   {
     SceneFile file;
+    file.set({}, "Analysis", analysis);
+    if (analysis == "dynamics")
+      file.set({"Materials", "sand"}, "Density", "1800");
     file.set({"Materials", "sand"}, "Rheology", "elastic granular");
     file.set({"Materials", "sand"}, "Admissible set", "mises schleicher");
     file.set({"Materials", "sand"}, "Friction parameter", "0.5");
@@ -318,7 +437,11 @@ namespace Signoton
     file.set({"Materials", "sand"}, "Binder", "proportional");
     file.set({"Boundaries", "bottom"}, "Symmetry", "true");
     file.set({"Boundaries", "left"}, "Symmetry", "true");
-    file.set({"Boundaries", "top"}, "Pressure", "1e5*t");
+    file.set({"Boundaries", "top"},
+             "Pressure",
+             analysis == "dynamics" ? "1e5*(t < 1e-3)" : "1e5*t");
+    if (analysis == "dynamics")
+      file.set({"Time integration"}, "End time", "2e-3");
     Scene scene(MPI_COMM_SELF, file);
     Signoton::print_template(out, scene.handler, file, {"Materials", "sand"});
   }
@@ -345,6 +468,8 @@ namespace Signoton
              << "\n";
       if (options.action != Options::Action::run)
         {
+          if (scene.model.is_dynamic)
+            ExplicitDynamics<dim>(scene.model).validate();
           if (options.action == Options::Action::explain)
             screen << "\n" << explain(scene.model);
           else
@@ -354,7 +479,10 @@ namespace Signoton
       for (const auto &effect : requirements(scene.model))
         if (effect.on)
           screen << "  " << effect.name << ": " << effect.why << "\n";
-      return Statics<dim>(scene.model).run(options.resume_directory);
+      return scene.model.is_dynamic ?
+               ExplicitDynamics<dim>(scene.model)
+                 .run(options.resume_directory) :
+               Statics<dim>(scene.model).run(options.resume_directory);
     }
   } // namespace
 
@@ -443,12 +571,12 @@ namespace Signoton
     std::ostringstream out;
     if (analysis == "point")
       PointDriver::print_template(out);
-    else if (analysis == "statics")
-      Scene<2>::print_template(out);
+    else if (analysis == "statics" || analysis == "dynamics")
+      Scene<2>::print_template(analysis, out);
     else
       throw UserError("command line, --template",
                       "'" + analysis + "'",
-                      "one of: statics, point",
+                      "one of: statics, dynamics, point",
                       "'signoton --template statics'");
     return out.str();
   }

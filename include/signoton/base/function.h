@@ -29,6 +29,10 @@ namespace Signoton
                 const Constants                &constants,
                 const std::string              &where);
 
+  /** Whether the variable `t` occurs in an expression. */
+  bool
+  depends_on_time(const std::string &expression);
+
   /** Components separated by `;`. Throws unless there are @p n. */
   std::vector<std::string>
   split_components(const std::string &text,

@@ -14,8 +14,9 @@ namespace Signoton
 {
   /**
    * What happens at one named part of the boundary: prescribed components of
-   * the displacement, symmetry (no normal displacement), a traction, a
-   * pressure. Parts that no condition names are free of traction.
+   * the displacement or the velocity, symmetry (no normal displacement), a
+   * traction, a pressure, dashpots that absorb waves. Parts that no condition
+   * names are free of traction.
    */
   template <int dim>
   class BoundaryCondition
@@ -41,17 +42,42 @@ namespace Signoton
     bool
     constrains() const;
 
+    /** Whether there are dashpots at the boundary. */
+    bool
+    absorbs() const
+    {
+      return absorbing != "no";
+    }
+
+    /** Whether they are matched to the loosened, not the closed medium. */
+    bool
+    absorbs_loosened() const
+    {
+      return absorbing == "loosened";
+    }
+
+    /** What only dynamics knows, by its key; empty if there is none. */
+    std::string
+    dynamic_key() const;
+
+    /** Whether its loads depend on time. */
+    bool
+    varies() const;
+
     std::string        name;
     types::boundary_id id = numbers::invalid_boundary_id;
 
     bool symmetry = false;
     /** One expression per prescribed component. */
     std::array<std::unique_ptr<FunctionParser<dim>>, dim> displacement;
+    std::array<std::unique_ptr<FunctionParser<dim>>, dim> velocity;
     std::unique_ptr<FunctionParser<dim>>                  traction;
     std::unique_ptr<FunctionParser<dim>>                  pressure;
 
   private:
     std::array<std::string, dim> displacement_text;
+    std::array<std::string, dim> velocity_text;
+    std::string                  absorbing = "no";
     std::string                  traction_text;
     std::string                  pressure_text;
   };

@@ -6,7 +6,7 @@
 namespace Signoton
 {
   /**
-   * The accepted state on disk: mesh, displacement, history and a few numbers,
+   * The accepted state on disk: mesh, nodal fields, history and a few numbers,
    * in a directory that is complete or absent, whatever happens while it is
    * written. It can be read on any number of ranks.
    */
@@ -29,17 +29,21 @@ namespace Signoton
     names(const std::string &prefix) const;
 
     /** Write the accepted state.
-     *  @param history_space nullptr if the scene has no history */
+     *  @param history_space nullptr if the scene has no history
+     *  @param fields        of the unknowns, the displacement first */
     void
-    write(const PointSpace<dim> *history_space, const VectorType &displacement);
+    write(const PointSpace<dim>                 *history_space,
+          const std::vector<const VectorType *> &fields);
 
     /** Read the numbers, and the refinement of the mesh of the scene. */
     void
     load_mesh();
 
-    /** Read the fields; unknowns must have been distributed on the mesh. */
+    /** Read the fields in the order in which they were written; unknowns must
+     *  have been distributed on the mesh. */
     void
-    load_fields(const PointSpace<dim> *history_space, VectorType &displacement);
+    load_fields(const PointSpace<dim>           *history_space,
+                const std::vector<VectorType *> &fields);
 
   private:
     std::string

@@ -7,7 +7,7 @@ namespace Signoton
 {
   /**
    * Fields for ParaView: a snapshot for some steps, and `fields.pvd` which
-   * lists them by time. Displacements are continuous; all else are averages
+   * lists them by time. Displacements and velocities are continuous; all else are averages
    * over cells, because these stay admissible where point values extrapolated
    * to nodes would not. What no material of the scene has is not written.
    */
@@ -17,9 +17,11 @@ namespace Signoton
   public:
     explicit FieldOutput(Model<dim> &model);
 
-    /** Write a snapshot and enter it in the list. */
+    /** Write a snapshot and enter it in the list.
+     *  @param velocity nullptr in statics */
     void
     write(const VectorType  &displacement,
+          const VectorType  *velocity,
           const double       time,
           const unsigned int step);
 

@@ -12,7 +12,7 @@ namespace Signoton
   struct OutputParameters
   {
     void
-    add_parameters(ParameterHandler &handler);
+    add_parameters(ParameterHandler &handler, const bool is_dynamic);
 
     std::string  directory        = "";
     unsigned int fields_every     = 1;
@@ -41,6 +41,26 @@ namespace Signoton
     double       growth            = 1.;
   };
 
+  /** How dynamics goes through time. */
+  struct TimeIntegration
+  {
+    void
+    add_parameters(ParameterHandler &handler);
+
+    /** Check the entries against each other. */
+    void
+    check(const SceneFile &file) const;
+
+    double         start            = 0.;
+    double         end              = 1.;
+    double         time_step        = 0.;
+    double         safety           = 0.9;
+    ShockViscosity shock_viscosity  = {0.5, 1.2};
+    bool           quiet_zones      = true;
+    unsigned int   statistics_every = 1;
+    unsigned int   snapshots        = 20;
+  };
+
   /**
    * Everything a scene consists of once it is built; drivers work on it.
    */
@@ -61,8 +81,17 @@ namespace Signoton
     std::unique_ptr<FunctionParser<dim>> gravity;
     /** An exact displacement to compare with, if the scene gives one. */
     std::unique_ptr<FunctionParser<dim>> reference;
+    /** The same for the velocity, in dynamics. */
+    std::unique_ptr<FunctionParser<dim>> reference_velocity;
     std::vector<Point<dim>>              probes;
+    /** The state before anything moves, if the scene gives one; strains and
+     *  stresses in the components that the embedding has. */
+    std::unique_ptr<FunctionParser<dim>> initial_strain, initial_stress;
+    std::unique_ptr<FunctionParser<dim>> initial_velocity;
+    bool                                 is_dynamic     = false;
+    bool                                 gravity_varies = false; ///< in time
     LoadSteps                            load_steps;
+    TimeIntegration                      time_integration;
     Newton::Parameters                   newton;
     LinearSolver::Parameters             linear_solver;
     Refinement                           refinement;
@@ -81,6 +110,8 @@ namespace Signoton
         gravity->set_time(time);
       if (reference)
         reference->set_time(time);
+      if (reference_velocity)
+        reference_velocity->set_time(time);
     }
   };
 } // namespace Signoton

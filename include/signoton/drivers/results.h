@@ -1,11 +1,8 @@
 #ifndef signoton_drivers_results_h
 #define signoton_drivers_results_h
 
-#include <signoton/drivers/checkpoint.h>
-#include <signoton/drivers/field_output.h>
+#include <signoton/drivers/run_output.h>
 #include <signoton/solvers/newton.h>
-
-#include <deal.II/base/conditional_ostream.h>
 
 namespace Signoton
 {
@@ -25,9 +22,8 @@ namespace Signoton
   };
 
   /**
-   * The results of a run: the log on the screen, `statistics.csv` with a line
-   * a step, the fields, `ledger.json`, and `resolved.prm` which runs again to
-   * the same answer.
+   * The results of statics: a line a step on the screen and in
+   * `statistics.csv`, fields, and what RunOutput writes.
    */
   template <int dim>
   class Results
@@ -76,36 +72,23 @@ namespace Signoton
     }
 
     std::string
-    checkpoint_directory() const;
+    checkpoint_directory() const
+    {
+      return output.checkpoint_directory();
+    }
 
   private:
     void
-    open_directory();
-
-    void
     print_newton_history(const NewtonResult &newton);
 
-    /** Errors against the reference: L2 norm, absolute and relative. */
-    std::pair<double, double>
-    reference_error(const VectorType &displacement);
-
-    std::vector<double>
-    probe_values(const VectorType &displacement);
-
     /** Names and values of a line of the statistics. */
-    std::vector<std::pair<std::string, double>>
+    typename RunOutput<dim>::Line
     statistics_line(const VectorType &displacement, const StepRecord &record);
 
-    void
-    append_statistics(const std::vector<std::pair<std::string, double>> &line);
-
-    Model<dim>        &model;
-    ConditionalOStream screen;
-    unsigned int       accepted_steps = 0;
-    double             external_work = 0., dissipation = 0.;
-    double             start_time = 0.;
-    bool               resumed    = false;
-    FieldOutput<dim>   fields;
+    Model<dim>    &model;
+    RunOutput<dim> output;
+    unsigned int   accepted_steps = 0;
+    double         external_work = 0., dissipation = 0.;
   };
 } // namespace Signoton
 

@@ -2,6 +2,7 @@
 #define signoton_drivers_static_problem_h
 
 #include <signoton/drivers/model.h>
+#include <signoton/operators/external_force.h>
 
 namespace Signoton
 {
@@ -65,6 +66,7 @@ namespace Signoton
     prepare(const double regularization);
 
     Model<dim>                      &model;
+    SurfaceLoad<dim>                 surface_load;
     VectorType                       load;
     VectorType                       load_of_mesh;
     TrilinosWrappers::SparseMatrix   matrix;

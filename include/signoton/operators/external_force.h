@@ -6,22 +6,49 @@
 
 namespace Signoton
 {
-  /**
-   * The work of all loads on a virtual displacement,
-   * $L(v)=\int\rho g\cdot v + \int_\Gamma (t-qn)\cdot v$, as a vector. Loads
-   * are those of the time last set; they do not follow the deformation.
-   * @param gravity acceleration in m/s^2, or nullptr for none
-   * @param constraints space.constraints for a right hand side,
-   *   space.mesh_constraints to keep the entries of prescribed unknowns
-   */
+  /** Add $\int\rho g\cdot v$ of all materials with a density, at the time last
+   *  set, to @p force in N. Constrained entries are condensed by
+   *  @p constraints. The caller compresses. */
   template <int dim>
   void
-  external_force(const Space<dim>                      &space,
-                 const BoundaryConditions<dim>         &conditions,
+  add_body_force(const Space<dim>                      &space,
                  const std::vector<Rheology::Material> &materials,
-                 const Function<dim>                   *gravity,
+                 const Function<dim>                   &gravity,
                  const AffineConstraints<double>       &constraints,
                  VectorType                            &force);
+
+  /**
+   * Tractions and pressures on the boundary. The geometry of the loaded faces
+   * is kept, so that a load that varies in time costs its expressions and
+   * little more.
+   */
+  template <int dim>
+  class SurfaceLoad
+  {
+  public:
+    /** Find the loaded faces of the current mesh. @p conditions must outlive
+     *  the object. */
+    void
+    reinit(const Space<dim> &space, const BoundaryConditions<dim> &conditions);
+
+    /** Add $\int t\cdot v$ at the time last set to @p force in N, as
+     *  add_body_force() does. */
+    void
+    add(const AffineConstraints<double> &constraints, VectorType &force) const;
+
+  private:
+    struct Face
+    {
+      const BoundaryCondition<dim>        *condition;
+      std::vector<types::global_dof_index> dofs;
+      std::vector<unsigned int>            component; ///< of the dofs
+      std::vector<Point<dim>>              points;
+      std::vector<Tensor<1, dim>>          normals;
+      FullMatrix<double>                   weights; ///< dof times point, in m^2
+    };
+
+    std::vector<Face> faces;
+  };
 } // namespace Signoton
 
 #endif

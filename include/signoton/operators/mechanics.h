@@ -17,6 +17,28 @@ namespace Signoton
     std::array<double, Rheology::n_regions> region_share{};
   };
 
+  /** Viscosity that spreads shocks over some cells, see
+   *  Mechanics::dynamic_force(). Numbers without unit; zero for none. */
+  struct ShockViscosity
+  {
+    double linear = 0., quadratic = 0.;
+
+    explicit operator bool() const
+    {
+      return linear > 0. || quadratic > 0.;
+    }
+  };
+
+  /** Sums over the own cells of a rank. */
+  struct DynamicSums
+  {
+    double stored      = 0.; ///< in J, if asked for
+    double dissipated  = 0.; ///< by hinges and dampers in the step, in J
+    double viscous     = 0.; ///< of that, by dampers
+    double shock       = 0.; ///< by the shock viscosity in the step, in J
+    double quiet_cells = 0.; ///< that were skipped
+  };
+
   /** Averages over a cell, in the order of the entries xx, yy, zz, xy, xz, yz.
    *  The average of admissible stresses is admissible: the set is convex. */
   struct CellAverages
@@ -61,6 +83,30 @@ namespace Signoton
     virtual void
     set_time_step(const double time_step) = 0;
 
+    /** Strain and stress before anything moves, as functions of the point with
+     *  the components xx, yy, zz, xy (, xz, yz); nullptr for none. */
+    struct InitialState
+    {
+      const Function<dim> *strain = nullptr;
+      const Function<dim> *stress = nullptr;
+      std::string          where; ///< in the scene file, for messages
+
+      explicit operator bool() const
+      {
+        return strain != nullptr || stress != nullptr;
+      }
+    };
+
+    /** Takes effect with the next reinit(). The law sees $\varepsilon(u)+
+     *  \varepsilon_0+E^{-1}:\sigma_0$. Throws there unless that state has the
+     *  stress $\sigma_0$, if one is given. */
+    virtual void
+    set_initial_state(const InitialState &state) = 0;
+
+    /** Of dynamic_force(); takes effect with the next reinit(). */
+    virtual void
+    set_shock_viscosity(const ShockViscosity &viscosity) = 0;
+
     /** A vector of unknowns with the ghosts that the sweeps need. */
     virtual void
     initialize_vector(VectorType &vector) const = 0;
@@ -95,6 +141,32 @@ namespace Signoton
     virtual void
     assemble(TrilinosWrappers::SparseMatrix &matrix,
              const double                    regularization) = 0;
+
+    /**
+     * Internal force and trial history of explicit time integration. Hanging
+     * and periodic nodes are followed, and their forces condensed; conditions
+     * at the boundary are not looked at. Under compression there is the
+     * pressure $q=\rho h|\dot\theta|(c_l c_p+c_q h|\dot\theta|)$ (von Neumann
+     * and Richtmyer 1950, Landshoff 1955) with the rate since the sweep before,
+     * the size h of the cell by the degree, and the speed of the closed medium.
+     * @param quiet cells are skipped, as being at rest, if no unknown of theirs
+     *   exceeds this displacement in m; none are if it is negative
+     */
+    virtual DynamicSums
+    dynamic_force(const VectorType &displacement,
+                  VectorType       &force,
+                  const bool        with_energies,
+                  const double      quiet) = 0;
+
+    /** Take rates of dilatation since @p displacement in the next sweep. */
+    virtual void
+    remember_dilatation(const VectorType &displacement) = 0;
+
+    /** A bound of the stable step of central differences in s, without safety:
+     *  the time in which the fastest wave of the closed medium crosses the
+     *  smallest cell, with the diagonal mass. On all ranks. */
+    virtual double
+    stable_time_step() = 0;
 
     /** Accept the trial history. */
     virtual void

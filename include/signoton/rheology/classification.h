@@ -60,6 +60,12 @@ namespace Signoton::Rheology
   Moduli
   loosened_moduli(const Scheme &scheme);
 
+  /** The stiffest that a scheme is in a time step, in Pa: nothing slips or
+   *  opens, and dampers are springs of twice their viscosity by the step, which
+   *  is what bounds the step of explicit time integration. */
+  Moduli
+  stiffest_moduli(const Scheme &scheme, const double time_step);
+
   /** The law of a scheme with a closed form; none if it has no such form. */
   std::optional<Law>
   closed_form(const Scheme &scheme);

@@ -23,14 +23,15 @@ namespace Signoton::Rheology
   template <typename Number>
   struct Response
   {
-    Tensor2<Number> stress;         ///< $\sigma_{n+1}$ in Pa
-    Tensor4<Number> tangent;        ///< $d\sigma_{n+1}/d\varepsilon_{n+1}$
-    Number          region;         ///< see Region
-    Number          potential;      ///< $W_n(\varepsilon)$ in J/m^3
-    Number          stored_energy;  ///< in J/m^3
-    Number          dissipation;    ///< of the step, in J/m^3
-    Tensor2<Number> contact_strain; ///< strain of the rigid contact
-    Tensor2<Number> plastic_strain; ///< strain of the plastic hinge
+    Tensor2<Number> stress;              ///< $\sigma_{n+1}$ in Pa
+    Tensor4<Number> tangent;             ///< $d\sigma_{n+1}/d\varepsilon_{n+1}$
+    Number          region;              ///< see Region
+    Number          potential;           ///< $W_n(\varepsilon)$ in J/m^3
+    Number          stored_energy;       ///< in J/m^3
+    Number          dissipation;         ///< of the step, in J/m^3
+    Number          viscous_dissipation; ///< the part of it in dampers
+    Tensor2<Number> contact_strain;      ///< strain of the rigid contact
+    Tensor2<Number> plastic_strain;      ///< strain of the plastic hinge
   };
 
   /** History of a law with `n_tensors` tensors and `n_scalars` scalars. */
@@ -66,10 +67,11 @@ namespace Signoton::Rheology
         response.potential = 0.5 * (response.stress * strain);
       if constexpr (request & energies)
         {
-          response.stored_energy  = 0.5 * (response.stress * strain);
-          response.dissipation    = 0.;
-          response.contact_strain = Tensor2<Number>();
-          response.plastic_strain = Tensor2<Number>();
+          response.stored_energy       = 0.5 * (response.stress * strain);
+          response.dissipation         = 0.;
+          response.viscous_dissipation = 0.;
+          response.contact_strain      = Tensor2<Number>();
+          response.plastic_strain      = Tensor2<Number>();
         }
     }
 
@@ -209,9 +211,10 @@ namespace Signoton::Rheology
       response.stored_energy =
         0.5 * spring.energy_product(response.stress, response.stress) +
         0.5 * (binder.stress(x) * x);
-      response.dissipation    = 0.;
-      response.contact_strain = Tensor2<Number>();
-      response.plastic_strain = Tensor2<Number>();
+      response.dissipation         = 0.;
+      response.viscous_dissipation = 0.;
+      response.contact_strain      = Tensor2<Number>();
+      response.plastic_strain      = Tensor2<Number>();
       if constexpr (n_tensors > 0)
         {
           response.plastic_strain = trial.tensors[0];

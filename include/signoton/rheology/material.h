@@ -59,6 +59,16 @@ namespace Signoton::Rheology
     Moduli
     elasticity() const;
 
+    /** $\sqrt{(k+4\mu/3)/\rho}$ of the closed medium in m/s. */
+    double
+    longitudinal_speed() const;
+
+    /** The time in s in which a longitudinal wave of the closed medium passes a
+     *  distance in m; dampers are as stiff as they are in a step of that
+     *  time. */
+    double
+    crossing_time(const double distance) const;
+
     /** The law in words and formulas, for --explain. */
     std::string
     description() const;

@@ -68,6 +68,7 @@ namespace Signoton::Rheology
       double       potential;  ///< $W_n(\varepsilon)$ in J/m^3
       double       stored;     ///< of springs, hardening, cohesion, in J/m^3
       double       dissipated; ///< by dampers and hinges in the step, in J/m^3
+      double       viscous;    ///< the part of it in dampers, in J/m^3
       double       scale;      ///< energy that errors are relative to, in J/m^3
       unsigned int iterations;
       double       residual; ///< relative

@@ -39,9 +39,9 @@ namespace Signoton
     void
     build();
 
-    /** Print all parameters with their documentation. */
+    /** Print all parameters of an analysis with their documentation. */
     static void
-    print_template(std::ostream &out);
+    print_template(const std::string &analysis, std::ostream &out);
 
     Model<dim> model;
 
@@ -55,6 +55,12 @@ namespace Signoton
     /** What needs the values of several keys. */
     void
     interpret();
+
+    /** The same for what only dynamics, or only statics, has. */
+    void
+    interpret_dynamics();
+    void
+    check_boundaries() const;
 
     void
     check_materials() const;
@@ -71,7 +77,9 @@ namespace Signoton
     std::string      constants_text = "";
     std::string      gravity_text   = "";
     std::string      reference_text = "";
-    Constants        constants;
+    std::string      reference_velocity_text = "";
+    std::string initial_strain_text, initial_stress_text, initial_velocity_text;
+    Constants   constants;
   };
 
   /** Read, build and run a scene as the options say. */

@@ -1,0 +1,93 @@
+#ifndef signoton_drivers_run_output_h
+#define signoton_drivers_run_output_h
+
+#include <signoton/drivers/checkpoint.h>
+#include <signoton/drivers/field_output.h>
+
+#include <deal.II/base/conditional_ostream.h>
+#include <deal.II/numerics/vector_tools_common.h>
+
+namespace Signoton
+{
+  /**
+   * What every run writes to its directory, whatever it computes:
+   * `resolved.prm`, a line of `statistics.csv` at a time, fields,
+   * `ledger.json`; and the screen.
+   */
+  template <int dim>
+  class RunOutput
+  {
+  public:
+    /** Names of columns with their values. */
+    using Line = std::vector<std::pair<std::string, double>>;
+
+    explicit RunOutput(Model<dim> &model);
+
+    /** Open the directory; remove what an earlier run left, unless this one is
+     *  resumed. */
+    void
+    start(const double start_time, const double end_time);
+
+    /** Columns of every statistics: values of fields at the probes, errors
+     *  against references, seconds and memory.
+     *  @param velocity nullptr in statics
+     *  @param phases   of the ledger */
+    void
+    add_common(Line                           &line,
+               const VectorType               &displacement,
+               const VectorType               *velocity,
+               const std::vector<std::string> &phases);
+
+    void
+    append(const Line &line);
+
+    /** Fields for ParaView; without velocity in statics. */
+    void
+    write_fields(const VectorType  &displacement,
+                 const VectorType  *velocity,
+                 const double       time,
+                 const unsigned int step);
+
+    /** Estimate of the time left, at a time of the run. */
+    std::string
+    time_left(const double time) const;
+
+    /** Write the ledger and the summary.
+     *  @param n_steps that were accepted */
+    void
+    finish(const unsigned int n_steps);
+
+    /** Put what must survive a restart into a checkpoint, and back.
+     *  @param n_lines of the statistics that are kept */
+    void
+    save(Checkpoint<dim> &checkpoint) const;
+    void
+    resume(const Checkpoint<dim> &checkpoint, const unsigned int n_lines);
+
+    std::string
+    checkpoint_directory() const;
+
+    ConditionalOStream screen;
+
+  private:
+    /** Errors against a reference, absolute and relative. */
+    std::pair<double, double>
+    reference_error(const VectorType           &field,
+                    const Function<dim>        &reference,
+                    const VectorTools::NormType norm);
+
+    std::vector<double>
+    probe_values(const VectorType &field);
+
+    Model<dim>      &model;
+    double           start_time = 0., end_time = 1.;
+    bool             resumed = false;
+    FieldOutput<dim> fields;
+  };
+
+  /** A number for the screen. */
+  std::string
+  short_number(const double value, const int digits = 3);
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,28 @@
+#ifndef signoton_operators_lumped_mass_h
+#define signoton_operators_lumped_mass_h
+
+#include <signoton/discretization/space.h>
+#include <signoton/rheology/material.h>
+
+namespace Signoton
+{
+  /**
+   * The diagonal mass of the unknowns in kg: $\int\rho\,\varphi_i$ by the
+   * Gauss-Lobatto rule whose points are the nodes of the element, so that the
+   * matrix is diagonal by itself and its entries are positive. That would leave
+   * nothing for nodes on an axis of rotation: in axisymmetry the mass of a cell
+   * goes to its nodes in the proportions of $\int\rho\,\varphi_i^2$ (Hinton,
+   * Rock and Zienkiewicz 1976), which is the same where both apply.
+   *
+   * Hanging and periodic nodes give their mass to those that move them, in the
+   * parts in which they are moved: the mass of the body is kept, and a velocity
+   * that is constant has its momentum exactly. Their own entries are zero.
+   * Conditions at the boundary do not count.
+   */
+  template <int dim>
+  VectorType
+  lumped_mass(const Space<dim>                      &space,
+              const std::vector<Rheology::Material> &materials);
+} // namespace Signoton
+
+#endif

@@ -1,0 +1,392 @@
+#ifndef signoton_operators_mechanics_dynamics_templates_h
+#define signoton_operators_mechanics_dynamics_templates_h
+
+#include "mechanics_kernel.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <limits>
+#include <sstream>
+
+// What dynamics adds to the kernel: the state at rest, the sweep of explicit
+// time integration, the stable step.
+
+namespace Signoton
+{
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::set_initial_state(
+    const typename Mechanics<dim>::InitialState &state)
+  {
+    initial_state = state;
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::set_shock_viscosity(
+    const ShockViscosity &viscosity)
+  {
+    shock_viscosity = viscosity;
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::find_sizes()
+  {
+    const unsigned int n_batches = data.n_cell_batches();
+    cell_size.resize(n_batches);
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
+      {
+        cell_size[batch] = Number(1.);
+        for (unsigned int i = 0;
+             i < data.n_active_entries_per_cell_batch(batch);
+             ++i)
+          cell_size[batch][i] =
+            data.get_cell_iterator(batch, i)->minimum_vertex_distance() /
+            degree;
+      }
+    dilatation.resize(n_batches * n_points);
+    for (Number &value : dilatation)
+      value = Number(0.);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::find_rest()
+  {
+    const unsigned int n_batches = data.n_cell_batches();
+    const auto value = [](const Function<dim> *function, const Point<dim> &p) {
+      Tensor2<> result;
+      if (function != nullptr)
+        for (unsigned int e = 0; e < n_tensor_entries; ++e)
+          result.access_raw_entry(Embedding::tensor_entries[e]) =
+            function->value(p, e);
+      return result;
+    };
+    rest_strain.resize(n_batches * n_points * n_tensor_entries);
+    rest_stress.resize(rest_strain.size());
+    rest_energy.resize(n_batches);
+    Cell       cell(data, mesh_constraints);
+    double     largest = 0.; // of the differences from given stresses
+    Point<dim> place;
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
+      {
+        const auto        &material = materials[material_of_batch[batch]];
+        const unsigned int n_lanes =
+          data.n_active_entries_per_cell_batch(batch);
+        cell.reinit(batch);
+        rest_energy[batch] = Number(0.);
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            std::array<Point<dim>, Number::size()> points;
+            Tensor2<Number>                        strain, given;
+            for (unsigned int i = 0; i < n_lanes; ++i)
+              {
+                for (unsigned int d = 0; d < dim; ++d)
+                  points[i][d] = cell.quadrature_point(q)[d][i];
+                const Tensor2<> stress = value(initial_state.stress, points[i]);
+                set_lane(given, i, stress);
+                set_lane(strain,
+                         i,
+                         value(initial_state.strain, points[i]) +
+                           material.elasticity().strain(stress));
+              }
+            Rheology::Response<Number> response;
+            std::visit(
+              [&](const auto &law) {
+                const auto virgin = Rheology::make_history<Number>(law);
+                auto       next   = virgin;
+                law.template update<Rheology::energies>(strain,
+                                                        virgin,
+                                                        next,
+                                                        response);
+              },
+              laws[material_of_batch[batch]]);
+            rest_energy[batch] += weight(cell, q) * response.stored_energy;
+            const std::size_t first =
+              (std::size_t(batch) * n_points + q) * n_tensor_entries;
+            for (unsigned int e = 0; e < n_tensor_entries; ++e)
+              {
+                const unsigned int entry = Embedding::tensor_entries[e];
+                rest_strain[first + e]   = strain.access_raw_entry(entry);
+                rest_stress[first + e] =
+                  response.stress.access_raw_entry(entry);
+              }
+            if (initial_state.stress != nullptr)
+              for (unsigned int i = 0; i < n_lanes; ++i)
+                {
+                  const double size = lane(given, i).norm();
+                  const double difference =
+                    (lane(response.stress, i) - lane(given, i)).norm() /
+                    std::max(size, std::numeric_limits<double>::min());
+                  if (!(difference <= largest))
+                    {
+                      largest = difference;
+                      place   = points[i];
+                    }
+                }
+          }
+      }
+    refuse_contradiction(largest, place);
+    integrate_rest();
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::refuse_contradiction(
+    const double      difference,
+    const Point<dim> &place)
+  {
+    constexpr double tolerance = 1e-8;
+    const double     all = Utilities::MPI::max(difference, space.communicator);
+    if (all <= tolerance)
+      return;
+    // the rank that has it tells the others where
+    std::ostringstream where;
+    if (!(difference < all))
+      where << place;
+    std::string found;
+    for (const auto &text :
+         Utilities::MPI::all_gather(space.communicator, where.str()))
+      if (found.empty())
+        found = text;
+    std::ostringstream how_much;
+    how_much << 100. * all;
+    throw UserError(initial_state.where,
+                    "at the point " + found +
+                      " the material answers the initial strain and stress "
+                      "with a stress that differs from the given one by " +
+                      how_much.str() + " %",
+                    "a stress that the material can bear, and no strain that "
+                    "changes it",
+                    "give one of them only; a stress has to be inside the "
+                    "cone and the yield set");
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::integrate_rest()
+  {
+    VectorType unused;
+    data.initialize_dof_vector(unused, mesh_constraints);
+    data.initialize_dof_vector(rest_force, mesh_constraints);
+    data.template cell_loop<VectorType, VectorType>(
+      [&](const auto &, auto &dst, const auto &, const Range &range) {
+        Cell cell(data, mesh_constraints);
+        for (unsigned int batch = range.first; batch < range.second; ++batch)
+          {
+            cell.reinit(batch);
+            for (unsigned int q = 0; q < n_points; ++q)
+              submit(cell, q, tensor_at(rest_stress, batch, q));
+            cell.integrate(cell_flags<Embedding>);
+            cell.distribute_local_to_global(dst);
+          }
+      },
+      rest_force,
+      unused);
+    // round-off of a state in equilibrium would wake all cells
+    const double noise = 1e-13 * rest_force.linfty_norm();
+    for (double &value : rest_force)
+      if (std::abs(value) < noise)
+        value = 0.;
+  }
+
+  template <typename Embedding, int degree>
+  template <unsigned int request, typename Law>
+  void
+  MechanicsKernel<Embedding, degree>::dynamic_run(
+    const Law        &law,
+    Cell             &cell,
+    const Range      &run,
+    const VectorType &displacement,
+    VectorType       &force,
+    DynamicSums      &sums)
+  {
+    Rheology::Response<Number> response;
+    auto        accepted = Rheology::make_history<Number>(law), next = accepted;
+    const bool  at_rest  = !rest_strain.empty();
+    const bool  shock    = !dilatation.empty();
+    const auto &material = materials[material_of_batch[run.first]];
+    const Number rate    = 1. / time_step,
+                 linear  = material.density * shock_viscosity.linear *
+                          material.longitudinal_speed(),
+                 quadratic = material.density * shock_viscosity.quadratic;
+    for (unsigned int batch = run.first; batch < run.second; ++batch)
+      {
+        const unsigned int n_lanes =
+          data.n_active_entries_per_cell_batch(batch);
+        Number stored(0.), dissipated(0.), viscous(0.), shocked(0.);
+        cell.reinit(batch);
+        cell.read_dof_values(displacement);
+        if (is_quiet(cell))
+          {
+            // the two copies of the history are exchanged after the step
+            std::copy_n(history.accepted(batch, 0),
+                        history.width(batch) * n_points,
+                        history.trial(batch, 0));
+            if (at_rest)
+              stored = rest_energy[batch];
+            sums.quiet_cells += n_lanes;
+          }
+        else
+          {
+            cell.evaluate(cell_flags<Embedding>);
+            for (unsigned int q = 0; q < n_points; ++q)
+              {
+                const Tensor2<Number> moved = strain(cell, q);
+                read_history<Law>(history.accepted(batch, q), accepted);
+                law.template update<request>(
+                  at_rest ? moved + tensor_at(rest_strain, batch, q) : moved,
+                  accepted,
+                  next,
+                  response);
+                write_history<Law>(next, history.trial(batch, q));
+                const Number w = weight(cell, q);
+                if constexpr ((request & Rheology::energies) != 0)
+                  {
+                    stored += w * response.stored_energy;
+                    dissipated += w * response.dissipation;
+                    viscous += w * response.viscous_dissipation;
+                  }
+                if (at_rest)
+                  response.stress -= tensor_at(rest_stress, batch, q);
+                if (shock)
+                  {
+                    Number      &before = dilatation[batch * n_points + q];
+                    const Number now    = trace(moved);
+                    const Number closed = std::max(before - now, Number(0.));
+                    const Number speed  = closed * rate * cell_size[batch];
+                    const Number pressure =
+                      speed * (linear + quadratic * speed);
+                    shocked += w * pressure * closed;
+                    response.stress -=
+                      pressure * unit_symmetric_tensor<3, Number>();
+                    before = now;
+                  }
+                submit(cell, q, response.stress);
+              }
+            cell.integrate(cell_flags<Embedding>);
+            cell.distribute_local_to_global(force);
+          }
+        for (unsigned int i = 0; i < n_lanes; ++i)
+          {
+            sums.stored += stored[i];
+            sums.dissipated += dissipated[i];
+            sums.viscous += viscous[i];
+            sums.shock += shocked[i];
+          }
+      }
+  }
+
+  template <typename Embedding, int degree>
+  bool
+  MechanicsKernel<Embedding, degree>::is_quiet(const Cell &cell) const
+  {
+    if (quiet_displacement < 0.)
+      return false;
+    Number largest(0.);
+    for (unsigned int i = 0; i < Cell::static_dofs_per_cell; ++i)
+      largest = std::max(largest, std::abs(cell.begin_dof_values()[i]));
+    for (unsigned int i = 0; i < Number::size(); ++i)
+      if (!(largest[i] <= quiet_displacement)) // also what is not a number
+        return false;
+    return true;
+  }
+
+  template <typename Embedding, int degree>
+  template <unsigned int request>
+  DynamicSums
+  MechanicsKernel<Embedding, degree>::dynamic_sweep(
+    const VectorType &displacement,
+    VectorType       &force)
+  {
+    DynamicSums sums;
+    force = 0.; // see sweep()
+    data.template cell_loop<VectorType, VectorType>(
+      [&](const auto &, auto &dst, const auto &src, const Range &range) {
+        Cell cell(data, mesh_constraints);
+        for_each_run(range, [&](const auto &law, const Range &run) {
+          dynamic_run<request>(law, cell, run, src, dst, sums);
+        });
+      },
+      force,
+      displacement);
+    if (!rest_strain.empty())
+      force += rest_force;
+    return sums;
+  }
+
+  template <typename Embedding, int degree>
+  DynamicSums
+  MechanicsKernel<Embedding, degree>::dynamic_force(
+    const VectorType &displacement,
+    VectorType       &force,
+    const bool        with_energies,
+    const double      quiet)
+  {
+    quiet_displacement = quiet;
+    return with_energies ?
+             dynamic_sweep<Rheology::energies>(displacement, force) :
+             dynamic_sweep<Rheology::stress>(displacement, force);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::remember_dilatation(
+    const VectorType &displacement)
+  {
+    if (dilatation.empty())
+      return;
+    displacement.update_ghost_values();
+    Cell cell(data, mesh_constraints);
+    for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
+      {
+        cell.reinit(batch);
+        cell.read_dof_values(displacement);
+        cell.evaluate(cell_flags<Embedding>);
+        for (unsigned int q = 0; q < n_points; ++q)
+          dilatation[batch * n_points + q] = trace(strain(cell, q));
+      }
+    displacement.zero_out_ghost_values();
+  }
+
+  template <typename Embedding, int degree>
+  double
+  MechanicsKernel<Embedding, degree>::stable_time_step()
+  {
+    // largest extension of a cell that the mapping undoes
+    std::vector<double> size(materials.size(),
+                             std::numeric_limits<double>::max());
+    Cell                cell(data, mesh_constraints);
+    for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
+      {
+        cell.reinit(batch);
+        double &smallest = size[material_of_batch[batch]];
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            const auto J = cell.inverse_jacobian(q);
+            for (unsigned int i = 0;
+                 i < data.n_active_entries_per_cell_batch(batch);
+                 ++i)
+              {
+                SymmetricTensor<2, dim> metric;
+                for (unsigned int a = 0; a < dim; ++a)
+                  for (unsigned int b = 0; b <= a; ++b)
+                    for (unsigned int c = 0; c < dim; ++c)
+                      metric[a][b] += J[a][c][i] * J[b][c][i];
+                smallest =
+                  std::min(smallest, 1. / std::sqrt(eigenvalues(metric)[0]));
+              }
+          }
+      }
+    // a quadratic element in one dimension with a diagonal mass has the
+    // frequency sqrt(24) c/h, a linear one 2 c/h
+    const double factor = degree == 1 ? 1. : 1. / std::sqrt(6.);
+    double       result = std::numeric_limits<double>::max();
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      result = std::min(result, materials[m].crossing_time(factor * size[m]));
+    return Utilities::MPI::min(result, space.communicator);
+  }
+} // namespace Signoton
+
+#endif
