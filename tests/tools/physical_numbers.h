@@ -63,7 +63,7 @@ namespace PhysicalNumbers
     if (name.find("energy") != std::string::npos || name == "external work" ||
         name == "transfer drift")
       return "energy";
-    for (const char *prefix : {"reaction", "displacement", "share of"})
+    for (const char *prefix : {"reaction", "displacement", "velocity", "share of"})
       if (name.rfind(prefix, 0) == 0)
         return prefix;
     return name;
@@ -73,7 +73,7 @@ namespace PhysicalNumbers
   is_physical(const std::string &name)
   {
     for (const char *word :
-         {"iterations", "seconds", "residual", "memory", "regularization"})
+         {"iterations", "seconds", "residual", "memory", "regularization", "quiet"})
       if (name.find(word) != std::string::npos)
         return false;
     return true;

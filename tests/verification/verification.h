@@ -97,7 +97,10 @@ namespace Verification
     options.scene_file       = scene_file;
     options.output_directory = "results";
     options.overrides        = overrides;
-    options.overrides.emplace_back("Output/Fields every=0");
+    const bool is_dynamic =
+      Signoton::SceneFile::read(scene_file).value({}, "Analysis") == "dynamics";
+    options.overrides.emplace_back(is_dynamic ? "Time integration/Snapshots=0" :
+                                                "Output/Fields every=0");
     return Signoton::run_scene(MPI_COMM_WORLD, options);
   }
 
