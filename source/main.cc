@@ -9,7 +9,8 @@ namespace
   using namespace Signoton;
 
   const char *const help =
-    R"(Signoton: statics of materials that resist tension and compression differently
+    R"(Signoton: statics and waves of materials that resist tension and
+compression differently
 
   signoton SCENE.prm                 run a scene
   signoton point POINT.prm           drive one material point by strain or
@@ -19,7 +20,7 @@ namespace
   signoton --validate SCENE.prm      build everything, run nothing; the exit
                                      status says whether it would start
   signoton --template NAME           print a commented parameter file (statics,
-                                     point)
+                                     dynamics, point)
   signoton --resume DIRECTORY        go on from the checkpoint in an output
                                      directory, on any number of ranks
   signoton --set 'Section/Key=value' override one entry; may be repeated

@@ -213,7 +213,8 @@ namespace Signoton::Rheology
   }
 
   double
-  Material::crossing_time(const double distance) const
+  Material::crossing_time(const double       distance,
+                          const unsigned int n_extensions) const
   {
     // Dampers are the stiffer the shorter the step: a fixed point, from above,
     // where the error shrinks by half each time or faster.
@@ -221,8 +222,11 @@ namespace Signoton::Rheology
     double       time = 1e30;
     for (unsigned int i = 0; i < 100; ++i)
       {
-        const Moduli m = stiffest_moduli(tree, time);
-        time = distance * std::sqrt(density / (m.bulk + 4. / 3. * m.shear));
+        const Moduli m    = stiffest_moduli(tree, time);
+        const double lame = m.bulk - 2. / 3. * m.shear;
+        time              = distance *
+               std::sqrt(density /
+                         (n_extensions * std::max(lame, 0.) + 2. * m.shear));
       }
     return time;
   }

@@ -163,8 +163,8 @@ namespace Signoton
     remember_dilatation(const VectorType &displacement) = 0;
 
     /** A bound of the stable step of central differences in s, without safety:
-     *  the time in which the fastest wave of the closed medium crosses the
-     *  smallest cell, with the diagonal mass. On all ranks. */
+     *  about the time in which the fastest wave of the closed medium crosses
+     *  the smallest cell, with the diagonal mass. On all ranks. */
     virtual double
     stable_time_step() = 0;
 

@@ -63,11 +63,15 @@ namespace Signoton::Rheology
     double
     longitudinal_speed() const;
 
-    /** The time in s in which a longitudinal wave of the closed medium passes a
-     *  distance in m; dampers are as stiff as they are in a step of that
-     *  time. */
+    /**
+     * A distance in m by the speed that bounds the frequencies of cells, in s.
+     * With the Lame constants of the closed medium that speed is
+     * $\sqrt{(n\lambda+2\mu)/\rho}$ for equal extensions in n directions, at
+     * least $\sqrt{2\mu/\rho}$ for shear; dampers are as stiff as they are in a
+     * step of the time sought.
+     */
     double
-    crossing_time(const double distance) const;
+    crossing_time(const double distance, const unsigned int n_extensions) const;
 
     /** The law in words and formulas, for --explain. */
     std::string
