@@ -263,6 +263,30 @@ namespace Signoton
     open_sections(path);
   }
 
+  void
+  SceneFile::remove(const Path &path, const std::string &key)
+  {
+    const auto is_below = [&](const Path &other) {
+      return other.size() >= path.size() &&
+             std::equal(path.begin(), path.end(), other.begin());
+    };
+    entries.erase(std::remove_if(entries.begin(),
+                                 entries.end(),
+                                 [&](const Entry &entry) {
+                                   return key.empty() ? is_below(entry.path) :
+                                                        entry.path == path &&
+                                                          entry.key == key;
+                                 }),
+                  entries.end());
+    if (key.empty())
+      sections.erase(std::remove_if(sections.begin(),
+                                    sections.end(),
+                                    [&](const auto &section) {
+                                      return is_below(section.first);
+                                    }),
+                     sections.end());
+  }
+
   std::vector<std::string>
   SceneFile::subsections(const Path &path) const
   {

@@ -242,40 +242,32 @@ namespace Signoton
     return indicators;
   }
 
-  namespace
+  template <int dim>
+  void
+  keep_coarsenable(parallel::distributed::Triangulation<dim> &mesh,
+                   const unsigned int                         minimum_level)
   {
-    /**
-     * Leave the coarsening flags only of complete families without a finer
-     * neighbor. Whether such a neighbor is to be coarsened too is not known if
-     * it is on another rank, and the mesh must not depend on that.
-     */
-    template <int dim>
-    void
-    keep_coarsenable(parallel::distributed::Triangulation<dim> &mesh,
-                     const unsigned int                         minimum_level)
-    {
-      std::vector<int> finest(mesh.n_vertices(), 0);
-      for (const auto &cell : mesh.active_cell_iterators())
-        if (!cell->is_artificial())
-          for (const auto v : cell->vertex_indices())
-            finest[cell->vertex_index(v)] =
-              std::max(finest[cell->vertex_index(v)], cell->level());
-      for (const auto &cell : mesh.active_cell_iterators())
-        {
-          cell->clear_refine_flag();
-          bool may_coarsen = cell->is_locally_owned() &&
-                             cell->level() > static_cast<int>(minimum_level);
-          for (const auto v : cell->vertex_indices())
-            may_coarsen &= finest[cell->vertex_index(v)] <= cell->level();
-          for (const auto f : cell->face_indices())
-            may_coarsen &= !cell->has_periodic_neighbor(f) ||
-                           cell->periodic_neighbor(f)->is_active();
-          if (!may_coarsen)
-            cell->clear_coarsen_flag();
-        }
-      mesh.prepare_coarsening_and_refinement();
-    }
-  } // namespace
+    std::vector<int> finest(mesh.n_vertices(), 0);
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const auto v : cell->vertex_indices())
+          finest[cell->vertex_index(v)] =
+            std::max(finest[cell->vertex_index(v)], cell->level());
+    for (const auto &cell : mesh.active_cell_iterators())
+      {
+        cell->clear_refine_flag();
+        bool may_coarsen = cell->is_locally_owned() &&
+                           cell->level() > static_cast<int>(minimum_level);
+        for (const auto v : cell->vertex_indices())
+          may_coarsen &= finest[cell->vertex_index(v)] <= cell->level();
+        for (const auto f : cell->face_indices())
+          may_coarsen &= !cell->has_periodic_neighbor(f) ||
+                         cell->periodic_neighbor(f)->is_active();
+        if (!may_coarsen)
+          cell->clear_coarsen_flag();
+      }
+    mesh.prepare_coarsening_and_refinement();
+  }
 
   template <int dim>
   bool
@@ -382,7 +374,9 @@ namespace Signoton
   template bool Refinement::mark<dim>(Space<dim> &,                      \
                                       Vector<float> &,                   \
                                       const std::vector<unsigned int> &, \
-                                      const std::vector<bool> &) const;
+                                      const std::vector<bool> &) const;  \
+  template void keep_coarsenable<dim>(                                   \
+    parallel::distributed::Triangulation<dim> &, const unsigned int);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

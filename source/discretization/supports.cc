@@ -6,32 +6,45 @@ namespace Signoton
 {
   namespace
   {
-    /** What projects onto the motions of a node that its constraints leave. */
+    /** How the components of a node follow the free ones. */
     template <int dim>
     Tensor<2, dim>
-    projector_of(const std::array<types::global_dof_index, dim> &dofs,
-                 const AffineConstraints<double>                &constraints)
+    follow_of(const std::array<types::global_dof_index, dim> &dofs,
+              const AffineConstraints<double>                &constraints)
     {
-      std::vector<Tensor<1, dim>> basis;
+      Tensor<2, dim> follow;
       for (unsigned int free = 0; free < dim; ++free)
         {
           if (constraints.is_constrained(dofs[free]))
             continue;
-          Tensor<1, dim> motion;
-          motion[free] = 1.;
+          follow[free][free] = 1.;
           for (unsigned int d = 0; d < dim; ++d)
             if (const auto *entries =
                   constraints.get_constraint_entries(dofs[d]))
               for (const auto &[dof, factor] : *entries)
                 if (dof == dofs[free])
-                  motion[d] = factor;
+                  follow[d][free] = factor;
+        }
+      return follow;
+    }
+
+    /** What projects onto the columns of a matrix. */
+    template <int dim>
+    Tensor<2, dim>
+    projector_of(const Tensor<2, dim> &follow)
+    {
+      Tensor<2, dim>              projector;
+      std::vector<Tensor<1, dim>> basis;
+      for (unsigned int free = 0; free < dim; ++free)
+        {
+          if (!(follow[free][free] > 0.))
+            continue;
+          Tensor<1, dim> motion = transpose(follow)[free];
           for (const auto &other : basis)
             motion -= (motion * other) * other;
           basis.push_back(motion / motion.norm());
+          projector += outer_product(basis.back(), basis.back());
         }
-      Tensor<2, dim> projector;
-      for (const auto &motion : basis)
-        projector += outer_product(motion, motion);
       return projector;
     }
   } // namespace
@@ -85,7 +98,8 @@ namespace Signoton
             Node found;
             for (unsigned int d = 0; d < dim; ++d)
               found.index[d] = owned.index_within_set(global[d]);
-            found.projector = projector_of<dim>(global, space.constraints);
+            found.follow    = follow_of<dim>(global, space.constraints);
+            found.projector = projector_of<dim>(found.follow);
             node_of.emplace(found.index[0], found);
           }
         for (const auto f : cell->face_indices())
@@ -141,6 +155,21 @@ namespace Signoton
         a = node.projector * a;
         for (unsigned int d = 0; d < dim; ++d)
           acceleration.local_element(node.index[d]) = a[d];
+      }
+  }
+
+  template <int dim>
+  void
+  Supports<dim>::condense(VectorType &force) const
+  {
+    for (const Node &node : supported)
+      {
+        Tensor<1, dim> f;
+        for (unsigned int d = 0; d < dim; ++d)
+          f[d] = force.local_element(node.index[d]);
+        f = f * node.follow;
+        for (unsigned int d = 0; d < dim; ++d)
+          force.local_element(node.index[d]) = f[d];
       }
   }
 

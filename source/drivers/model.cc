@@ -36,17 +36,42 @@ namespace Signoton
   TimeIntegration::add_parameters(ParameterHandler &handler)
   {
     handler.enter_subsection("Time integration");
+    handler.add_parameter("Scheme",
+                          scheme,
+                          "explicit: central differences, in steps shorter "
+                          "than the time in which a wave crosses a cell. "
+                          "implicit: generalized alpha, in steps of any size, "
+                          "each a Newton iteration as in statics; for motions "
+                          "that are slow beside waves.",
+                          Patterns::Selection("explicit|implicit"));
     handler.add_parameter("Start time", start, "In s.");
     handler.add_parameter("End time", end, "In s.");
     handler.add_parameter("Time step",
                           time_step,
-                          "In s; 0: the stable one by 'Safety'.",
+                          "In s; 0: the stable one by 'Safety', or implicit "
+                          "steps by 'Error tolerance'.",
                           Patterns::Double(0.));
-    handler.add_parameter("Safety",
-                          safety,
-                          "The step as a part of the stable one, in which the "
-                          "fastest wave crosses the smallest cell.",
-                          Patterns::Double(0.01, 1.));
+    handler.add_parameter(
+      "Safety",
+      safety,
+      "Explicit: the step as a part of the stable one, in which the "
+      "fastest wave crosses the smallest cell.",
+      Patterns::Double(0.01, 1.));
+    handler.add_parameter("Error tolerance",
+                          error_tolerance,
+                          "Implicit: local error of a step, relative to the "
+                          "largest displacement, by which steps are chosen.",
+                          Patterns::Double(1e-12, 1.));
+    handler.add_parameter("Maximum time step",
+                          maximum_step,
+                          "Implicit: in s; 0: a fiftieth of the run.",
+                          Patterns::Double(0.));
+    handler.add_parameter("Spectral radius",
+                          spectral_radius,
+                          "Implicit: what is left after a step of an "
+                          "oscillation that is much faster; 1: all, 0: "
+                          "nothing.",
+                          Patterns::Double(0., 1.));
     handler.add_parameter("Linear shock viscosity",
                           shock_viscosity.linear,
                           "Without unit; damps oscillations behind fronts. By "
@@ -59,7 +84,7 @@ namespace Signoton
                           Patterns::Double(0., 20.));
     handler.add_parameter("Quiet zones",
                           quiet_zones,
-                          "Skip cells that no wave has reached.");
+                          "Explicit: skip cells that no wave has reached.");
     handler.add_parameter("Statistics every",
                           statistics_every,
                           "A line of statistics every n-th step and after the "

@@ -237,6 +237,8 @@ namespace Signoton
     const auto memory = model.mechanics->memory();
     model.ledger.bytes("history", memory.history);
     model.ledger.bytes("tangents", memory.tangent);
+    model.ledger.bytes("initial state", memory.initial_state);
+    model.ledger.bytes("shock viscosity", memory.shock_viscosity);
     model.ledger.bytes("mesh data", memory.mesh_data);
     model.ledger.count("accepted steps", n_steps);
     model.ledger.write(model.output.directory + "/ledger.json");

@@ -3,6 +3,8 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
+#include <algorithm>
+
 namespace Signoton
 {
   template <int dim>
@@ -140,8 +142,10 @@ namespace Signoton
     {
       const auto timer = model.ledger.time("assembly");
       model.mechanics->assemble(matrix, regularization);
+      complete(matrix);
     }
-    linear_solver.initialize(matrix, near_null_space, dim, model.space->degree);
+    linear_solver.initialize(
+      matrix, near_null_space, dim, model.space->degree, has_potential());
     assembled = regularization;
   }
 
@@ -162,11 +166,20 @@ namespace Signoton
 
   template <int dim>
   bool
-  StaticProblem<dim>::predict(VectorType &u, const double regularization)
+  StaticProblem<dim>::has_potential() const
   {
-    VectorType lift(u), gradient(u), du(u);
-    model.space->constraints.distribute(lift);
-    lift -= u;
+    return std::all_of(model.materials.begin(),
+                       model.materials.end(),
+                       [](const auto &m) { return m.has_potential(); });
+  }
+
+  template <int dim>
+  bool
+  StaticProblem<dim>::predict(VectorType       &u,
+                              const VectorType &lift,
+                              const double      regularization)
+  {
+    VectorType gradient(u), du(u);
     if (!(lift.linfty_norm() > 1e-14 * u.linfty_norm()))
       return true;
     evaluate(u, gradient, true);

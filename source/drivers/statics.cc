@@ -45,7 +45,12 @@ namespace Signoton
     model.mechanics->set_time_step(new_time - time);
     problem.update_loads();
     if (predict)
-      problem.predict(u, model.newton.regularization);
+      {
+        VectorType lift(u);
+        model.space->constraints.distribute(lift);
+        lift -= u;
+        problem.predict(u, lift, model.newton.regularization);
+      }
     else
       model.space->constraints.distribute(u);
     const VectorType guess(u);

@@ -108,9 +108,10 @@ namespace Signoton
     for (auto &column : columns)
       column.compress(VectorOperation::add);
 
-    boost::container::flat_map<unsigned int, Tensor<2, dim>> projector_of;
+    boost::container::flat_map<unsigned int, typename Supports<dim>::Node>
+      supported;
     for (const auto &node : supports.nodes())
-      projector_of[node.index[0]] = node.projector;
+      supported[node.index[0]] = node;
     const IndexSet   &owned = space.dof_handler.locally_owned_dofs();
     std::vector<bool> done(owned.n_elements(), false);
     for (const auto &cell : space.dof_handler.active_cell_iterators())
@@ -133,10 +134,11 @@ namespace Signoton
                 node.damping[a][b] = columns[b].local_element(node.index[a]);
             if (!(node.damping.norm() > 0.))
               continue;
-            const auto support = projector_of.find(node.index[0]);
-            node.projector     = support != projector_of.end() ?
-                                   support->second :
-                                   Tensor<2, dim>(unit_symmetric_tensor<dim>());
+            const Tensor<2, dim> identity = unit_symmetric_tensor<dim>();
+            const auto           support  = supported.find(node.index[0]);
+            const bool           is_free  = support == supported.end();
+            node.projector = is_free ? identity : support->second.projector;
+            node.follow    = is_free ? identity : support->second.follow;
             nodes.push_back(node);
           }
       }

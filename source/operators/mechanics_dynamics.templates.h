@@ -30,6 +30,19 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
+  auto
+  MechanicsKernel<Embedding, degree>::shock_of(
+    const Rheology::Material &material) const -> Shock
+  {
+    if (!shock_viscosity)
+      return {};
+    return {Number(1. / time_step),
+            Number(material.density * shock_viscosity.linear *
+                   material.longitudinal_speed()),
+            Number(material.density * shock_viscosity.quadratic)};
+  }
+
+  template <typename Embedding, int degree>
   void
   MechanicsKernel<Embedding, degree>::find_sizes()
   {
@@ -204,13 +217,9 @@ namespace Signoton
   {
     Rheology::Response<Number> response;
     auto        accepted = Rheology::make_history<Number>(law), next = accepted;
-    const bool  at_rest  = !rest_strain.empty();
-    const bool  shock    = !dilatation.empty();
-    const auto &material = materials[material_of_batch[run.first]];
-    const Number rate    = 1. / time_step,
-                 linear  = material.density * shock_viscosity.linear *
-                          material.longitudinal_speed(),
-                 quadratic = material.density * shock_viscosity.quadratic;
+    const bool  at_rest   = !rest_strain.empty();
+    const bool  shock     = !dilatation.empty();
+    const Shock viscosity = shock_of(materials[material_of_batch[run.first]]);
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         const unsigned int n_lanes =
@@ -255,9 +264,8 @@ namespace Signoton
                     Number      &before = dilatation[batch * n_points + q];
                     const Number now    = trace(moved);
                     const Number closed = std::max(before - now, Number(0.));
-                    const Number speed  = closed * rate * cell_size[batch];
                     const Number pressure =
-                      speed * (linear + quadratic * speed);
+                      viscosity.pressure(closed * cell_size[batch]);
                     shocked += w * pressure * closed;
                     response.stress -=
                       pressure * unit_symmetric_tensor<3, Number>();

@@ -81,7 +81,8 @@ namespace Signoton
     EnergyBalance
     energy_balance(const VectorType &displacement) override;
     std::vector<CellAverages>
-    cell_averages(const VectorType &displacement) override;
+    cell_averages(const VectorType        &displacement,
+                  const std::vector<bool> &wanted) override;
     void
     stress_field(const VectorType      &displacement,
                  const PointSpace<dim> &points,
@@ -180,18 +181,59 @@ namespace Signoton
                const VectorType &displacement,
                VectorType       &force);
 
-    /** Everything a law knows, point by point, without integration. */
+    /** Everything a law knows, point by point, without integration.
+     *  @param wanted see cell_averages(); others of the same batch come along */
     void
-    visit_points(const VectorType &displacement, const Visitor &visitor);
+    visit_points(const VectorType        &displacement,
+                 const Visitor           &visitor,
+                 const std::vector<bool> &wanted = {});
     template <typename Law>
     void
-    visit_run(const Law        &law,
-              Cell             &cell,
-              const Range      &run,
-              const VectorType &displacement,
-              const Visitor    &visitor);
+    visit_run(const Law               &law,
+              Cell                    &cell,
+              const Range             &run,
+              const VectorType        &displacement,
+              const Visitor           &visitor,
+              const std::vector<bool> &wanted);
 
     // mechanics_dynamics.templates.h
+    /** The pressure of shock viscosity in a material over a step, by the
+     *  distance h theta by which a cell closes. */
+    struct Shock
+    {
+      Number rate, linear, quadratic;
+
+      Number
+      pressure(const Number &distance) const
+      {
+        const Number speed = rate * distance;
+        return speed * (linear + quadratic * speed);
+      }
+
+      /** The integral of the pressure over the distance. */
+      Number
+      potential(const Number &distance) const
+      {
+        const Number speed = rate * distance;
+        return distance * speed *
+               (0.5 * linear + (1. / 3.) * quadratic * speed);
+      }
+
+      /** The derivative of the pressure, zero if nothing closes. */
+      Number
+      stiffness(const Number &distance) const
+      {
+        const Number zero(0.);
+        return select_if_less(zero,
+                              distance,
+                              Number(rate * (linear +
+                                             2. * quadratic * rate * distance)),
+                              zero);
+      }
+    };
+    Shock
+    shock_of(const Rheology::Material &material) const;
+
     /** Strains, stresses and energies of the initial state. */
     void
     find_rest();
@@ -234,7 +276,7 @@ namespace Signoton
     std::vector<unsigned int> material_of_batch;
     /** Elastic tangents by material: regularization, and what linear
      *  materials have instead of a tangent at every point. */
-    std::vector<std::array<Number, n_tangent_entries<Embedding>>>
+    std::vector<std::array<Number, n_tangent_entries<Embedding>(true)>>
       elastic_tangents;
     // Empty unless there is an initial state: tensors by batch and point, and
     // by batch the energy in J.

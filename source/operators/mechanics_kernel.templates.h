@@ -22,7 +22,7 @@ namespace Signoton
                                 numbers::invalid_unsigned_int);
         material_of_id[materials[m].id] = m;
         elastic_tangents.emplace_back();
-        pack_tangent<Embedding>(
+        pack_tangent<Embedding, true>(
           materials[m].elasticity().template tensor<Number>(),
           elastic_tangents.back().data());
       }
@@ -109,10 +109,13 @@ namespace Signoton
         material_of_batch[batch] = material;
         widths[batch]            = width(laws[material]);
         const bool linear =
-          std::holds_alternative<Rheology::Elastic>(laws[material]);
+          std::holds_alternative<Rheology::Elastic>(laws[material]) &&
+          !shock_viscosity;
         tangent_offset[batch + 1] =
           tangent_offset[batch] +
-          (linear ? 0 : n_points * n_tangent_entries<Embedding>);
+          (linear ? 0 :
+                    n_points * n_tangent_entries<Embedding>(
+                                 has_potential(laws[material])));
       }
     history.reinit(widths, n_points);
     tangents.resize(0);
@@ -274,8 +277,12 @@ namespace Signoton
                                                  const VectorType &displacement,
                                                  VectorType       &force)
   {
-    constexpr unsigned int     n_tangent = n_tangent_entries<Embedding>;
-    constexpr bool             linear = std::is_same_v<Law, Rheology::Elastic>;
+    constexpr bool         symmetric = Law::has_potential;
+    constexpr unsigned int n_tangent = n_tangent_entries<Embedding>(symmetric);
+    const bool             with_tangent =
+      tangent_offset[run.second] > tangent_offset[run.first];
+    const bool  shocked = !dilatation.empty();
+    const Shock shock   = shock_of(materials[material_of_batch[run.first]]);
     Rheology::Response<Number> response;
     auto   accepted = Rheology::make_history<Number>(law), next = accepted;
     double sum = 0.;
@@ -293,10 +300,28 @@ namespace Signoton
                                          next,
                                          response);
             write_history<Law>(next, history.trial(batch, q));
-            if constexpr ((request & Rheology::tangent) && !linear)
-              pack_tangent<Embedding>(response.tangent,
-                                      tangents.data() + tangent_offset[batch] +
-                                        q * n_tangent);
+            if (shocked)
+              {
+                const Number closed =
+                  cell_size[batch] * std::max(dilatation[batch * n_points + q] -
+                                                trace(strain(cell, q)),
+                                              Number(0.));
+                const auto I = unit_symmetric_tensor<3, Number>();
+                response.stress -= shock.pressure(closed) * I;
+                if constexpr (request & Rheology::potential)
+                  response.potential +=
+                    shock.potential(closed) / cell_size[batch];
+                if constexpr (request & Rheology::tangent)
+                  response.tangent +=
+                    (shock.stiffness(closed) * cell_size[batch]) *
+                    tensor_product(I, I);
+              }
+            if constexpr (request & Rheology::tangent)
+              if (with_tangent)
+                pack_tangent<Embedding, symmetric>(response.tangent,
+                                                   tangents.data() +
+                                                     tangent_offset[batch] +
+                                                     q * n_tangent);
             if constexpr (request & Rheology::potential)
               potential += weight(cell, q) * response.potential;
             submit(cell, q, response.stress);
@@ -344,20 +369,24 @@ namespace Signoton
   {
     const unsigned int batch   = cell.get_current_cell_index();
     const auto        &elastic = elastic_tangents[material_of_batch[batch]];
-    const bool linear = tangent_offset[batch] == tangent_offset[batch + 1];
+    // linear materials have no tangent at every point
+    const unsigned int n_kept =
+      (tangent_offset[batch + 1] - tangent_offset[batch]) / n_points;
+    const bool symmetric = n_kept <= n_tangent_entries<Embedding>(true);
     cell.evaluate(cell_flags<Embedding>);
     for (unsigned int q = 0; q < cell.n_q_points; ++q)
       {
         const Tensor2<Number> increment = strain(cell, q);
-        const Number         *packed    = linear ?
-                                            elastic.data() :
-                                            tangents.data() + tangent_offset[batch] +
-                                   q * n_tangent_entries<Embedding>;
-        Tensor2<Number>       stress =
-          apply_packed_tangent<Embedding>(packed, increment);
+        const Number         *packed =
+          n_kept == 0 ? elastic.data() :
+                                tangents.data() + tangent_offset[batch] + q * n_kept;
+        Tensor2<Number> stress =
+          symmetric ? apply_packed_tangent<Embedding, true>(packed, increment) :
+                      apply_packed_tangent<Embedding, false>(packed, increment);
         if (regularization > 0.)
-          stress += Number(regularization) *
-                    apply_packed_tangent<Embedding>(elastic.data(), increment);
+          stress +=
+            Number(regularization) *
+            apply_packed_tangent<Embedding, true>(elastic.data(), increment);
         submit(cell, q, stress);
       }
     cell.integrate(cell_flags<Embedding>);
@@ -412,6 +441,9 @@ namespace Signoton
   {
     return {history.memory_consumption(),
             tangents.size() * sizeof(Number),
+            (rest_strain.size() + rest_stress.size() + rest_energy.size()) *
+              sizeof(Number),
+            (cell_size.size() + dilatation.size()) * sizeof(Number),
             data.memory_consumption()};
   }
 } // namespace Signoton

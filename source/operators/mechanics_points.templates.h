@@ -15,12 +15,23 @@ namespace Signoton
                                                 Cell             &cell,
                                                 const Range      &run,
                                                 const VectorType &displacement,
-                                                const Visitor    &visitor)
+                                                const Visitor    &visitor,
+                                                const std::vector<bool> &wanted)
   {
+    const auto is_wanted = [&](const unsigned int batch) {
+      bool any = wanted.empty();
+      for (unsigned int i = 0;
+           !any && i < data.n_active_entries_per_cell_batch(batch);
+           ++i)
+        any = wanted[data.get_cell_iterator(batch, i)->active_cell_index()];
+      return any;
+    };
     Rheology::Response<Number> response;
     auto accepted = Rheology::make_history<Number>(law), next = accepted;
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
+        if (!is_wanted(batch))
+          continue;
         cell.reinit(batch);
         cell.read_dof_values_plain(displacement);
         cell.evaluate(cell_flags<Embedding>);
@@ -37,8 +48,9 @@ namespace Signoton
   template <typename Embedding, int degree>
   void
   MechanicsKernel<Embedding, degree>::visit_points(
-    const VectorType &displacement,
-    const Visitor    &visitor)
+    const VectorType        &displacement,
+    const Visitor           &visitor,
+    const std::vector<bool> &wanted)
   {
     VectorType unused; // nothing is integrated
     initialize_vector(unused);
@@ -46,7 +58,7 @@ namespace Signoton
       [&](const auto &, auto &, const auto &src, const Range &range) {
         Cell cell(data, all_constraints);
         for_each_run(range, [&](const auto &law, const Range &run) {
-          visit_run(law, cell, run, src, visitor);
+          visit_run(law, cell, run, src, visitor, wanted);
         });
       },
       unused,
@@ -86,11 +98,12 @@ namespace Signoton
   template <typename Embedding, int degree>
   std::vector<CellAverages>
   MechanicsKernel<Embedding, degree>::cell_averages(
-    const VectorType &displacement)
+    const VectorType        &displacement,
+    const std::vector<bool> &wanted)
   {
     std::vector<CellAverages> result(space.mesh.n_active_cells());
     std::vector<double>       volume(result.size(), 0.);
-    visit_points(displacement, [&](const PointResponse &point) {
+    const auto                add = [&](const PointResponse &point) {
       for (unsigned int i = 0;
            i < data.n_active_entries_per_cell_batch(point.batch);
            ++i)
@@ -115,7 +128,8 @@ namespace Signoton
           average.region = std::max(average.region, region);
           volume[cell] += w;
         }
-    });
+    };
+    visit_points(displacement, add, wanted);
     for (std::size_t cell = 0; cell < result.size(); ++cell)
       if (volume[cell] > 0.)
         {

@@ -400,6 +400,40 @@ namespace Signoton::Rheology
     return {};
   }
 
+  namespace
+  {
+    /** The first element of a kind, in the order of the text. */
+    const Scheme *
+    find(const Scheme &scheme, const Kind kind)
+    {
+      if (scheme.kind == kind)
+        return &scheme;
+      const Scheme *found = nullptr;
+      for (auto part = scheme.parts.begin();
+           found == nullptr && part != scheme.parts.end();
+           ++part)
+        found = find(*part, kind);
+      return found;
+    }
+  } // namespace
+
+  Law
+  conditional_form(const Scheme &scheme, const Moduli &binder)
+  {
+    const Moduli &spring = find(scheme, Kind::spring)->moduli;
+    const auto   &cylinder =
+      std::get<VonMisesCylinder<false>>(find(scheme, Kind::hinge)->set[0]);
+    const auto &cone = find(scheme, Kind::contact)->set[0];
+    if (const auto *round = std::get_if<MisesSchleicherCone>(&cone))
+      return ConditionalPlasticity<VonMisesCylinder<false>,
+                                   MisesSchleicherCone>(spring,
+                                                        binder,
+                                                        cylinder,
+                                                        *round);
+    return ConditionalPlasticity<VonMisesCylinder<false>, PrincipalSet>(
+      spring, binder, cylinder, std::get<PrincipalSet>(cone));
+  }
+
   std::string
   classification(const Scheme &scheme)
   {

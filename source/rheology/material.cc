@@ -50,6 +50,12 @@ namespace Signoton::Rheology
   }
 
   bool
+  Material::has_potential() const
+  {
+    return plastic_flow != "conditional";
+  }
+
+  bool
   Material::may_lose_stiffness() const
   {
     const Moduli left = loosened_moduli(scheme());
@@ -200,7 +206,10 @@ namespace Signoton::Rheology
   Law
   Material::law(const std::optional<double> &ratio) const
   {
-    const Scheme             tree   = scheme(ratio);
+    const Scheme tree = scheme(ratio);
+    if (plastic_flow == "conditional")
+      return conditional_form(tree,
+                              has_binder() ? binder(ratio) : Moduli{0., 0.});
     const std::optional<Law> closed = closed_form(tree);
     return closed ? *closed : General(tree);
   }
@@ -234,7 +243,11 @@ namespace Signoton::Rheology
   std::string
   Material::description() const
   {
-    const Scheme      tree   = scheme();
+    const Scheme tree = scheme();
+    if (!has_potential())
+      return rheology + " = " + tree.text +
+             ", the hinge on the conditional stress; " + classification(tree) +
+             "; has a closed form and no potential";
     const bool        closed = closed_form(tree).has_value();
     const std::string text =
       rheology +

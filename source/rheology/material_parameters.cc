@@ -99,6 +99,15 @@ namespace Signoton::Rheology
                           "the strength in simple shear.",
                           non_negative);
     handler.add_parameter(
+      "Plastic flow",
+      plastic_flow,
+      "Which stress of an elastic plastic granular material the hinge sees. "
+      "series: that of the contact, as the scheme says. conditional: the one "
+      "that the spring would have with all pores closed, which is confined to "
+      "the yield set first and to the cone then; loosened material yields, "
+      "too. They agree until loosened material is sheared.",
+      Patterns::Selection("series|conditional"));
+    handler.add_parameter(
       "Binder",
       binder_kind,
       "A second spring in parallel with the contact, which keeps loosened "
@@ -199,7 +208,10 @@ namespace Signoton::Rheology
            {"Bulk modulus", "Shear modulus", "Young modulus", "Poisson ratio"})
         keys.emplace_back(key);
     if (uses("bound cone and hinge"))
-      keys.emplace_back("Admissible set");
+      {
+        keys.emplace_back("Admissible set");
+        keys.emplace_back("Plastic flow");
+      }
     if (uses_set() && !uses("contact with gap"))
       {
         if (admissible_set == "mises schleicher" ||
@@ -321,7 +333,12 @@ namespace Signoton::Rheology
     else if (on_hinge)
       allow_sets({"mises schleicher", "coulomb mohr", "von mises", "tresca"});
     if (uses("bound cone and hinge"))
-      allow_sets({"mises schleicher"});
+      {
+        if (has_potential())
+          allow_sets({"mises schleicher"});
+        else
+          allow_sets({"mises schleicher", "coulomb mohr", "no tension"});
+      }
 
     if (contains(required, "Friction angle") && friction_angle < 1.6)
       refuse("Friction angle",

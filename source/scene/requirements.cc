@@ -1,6 +1,7 @@
 #include <signoton/scene/requirements.h>
 #include <signoton/tensors/embedding.h>
 
+#include <algorithm>
 #include <functional>
 #include <iomanip>
 #include <sstream>
@@ -11,13 +12,13 @@ namespace Signoton
   {
     template <int dim>
     unsigned int
-    tangent_entries(const Space<dim> &space)
+    tangent_entries(const Space<dim> &space, const bool symmetric)
     {
       if constexpr (dim == 3)
-        return n_tangent_entries<Solid>;
+        return n_tangent_entries<Solid>(symmetric);
       else
-        return space.axisymmetric ? n_tangent_entries<Axisymmetric> :
-                                    n_tangent_entries<PlaneStrain>;
+        return space.axisymmetric ? n_tangent_entries<Axisymmetric>(symmetric) :
+                                    n_tangent_entries<PlaneStrain>(symmetric);
     }
 
     std::string
@@ -49,14 +50,20 @@ namespace Signoton
       names_of(materials, [](const auto &m) { return m.has_binder(); });
     const auto heavy =
       names_of(materials, [](const auto &m) { return m.density > 0.; });
-    const bool tangent = !inelastic.empty() && !model.is_dynamic;
+    const bool is_explicit =
+      model.is_dynamic && !model.time_integration.is_implicit();
+    const bool initial = model.initial_strain || model.initial_stress;
+    const bool shock =
+      model.is_dynamic && bool(model.time_integration.shock_viscosity);
+    const bool tangent = (!inelastic.empty() || shock) && !is_explicit;
+    const bool symmetric =
+      std::all_of(materials.begin(), materials.end(), [](const auto &m) {
+        return m.has_potential();
+      });
     const bool gravity = model.gravity && !heavy.empty();
     const bool adaptive =
       model.refinement.cycles(1) > 0 || model.refinement.is_used_later();
 
-    const bool initial = model.initial_strain || model.initial_stress;
-    const bool shock =
-      model.is_dynamic && bool(model.time_integration.shock_viscosity);
     std::vector<std::string> with_dashpots;
     for (const auto &condition : model.conditions)
       if (condition.absorbs())
@@ -71,10 +78,11 @@ namespace Signoton
              0},
             {"consistent tangent",
              tangent,
-             model.is_dynamic  ? "explicit time integration needs none" :
-             inelastic.empty() ? "all materials are linear" :
-                                 "materials " + inelastic,
-             tangent ? tangent_entries(*model.space) * number : 0},
+             is_explicit ? "explicit time integration needs none" :
+             !tangent    ? "all materials are linear" :
+             shock       ? "shock viscosity" :
+                           "materials " + inelastic,
+             tangent ? tangent_entries(*model.space, symmetric) * number : 0},
             {"history",
              !remembering.empty(),
              remembering.empty() ?
@@ -123,11 +131,16 @@ namespace Signoton
   std::string
   explain(const Model<dim> &model)
   {
+    const bool is_explicit =
+      model.is_dynamic && !model.time_integration.is_implicit();
     std::ostringstream out;
     out << (model.is_dynamic ?
               "Equations: density * acceleration = div stress + load,\n"
               "  stress by the material from strain = sym grad u and history;\n"
-              "  central differences in time, diagonal mass" :
+              "  " +
+                std::string(is_explicit ? "central differences" :
+                                          "generalized alpha") +
+                " in time, diagonal mass" :
               "Equations: find the displacement u that minimizes\n"
               "  sum over the body of W_n(strain(u)) - work of the loads,\n"
               "  strain = sym grad u, stress = dW_n/dstrain")
@@ -155,7 +168,7 @@ namespace Signoton
     // a row couples with the unknowns of the patch around a node, on average
     const double row = dim * std::pow(model.space->degree == 1 ? 3. : 4., dim);
     const auto   forecast = [&](const std::string &when, const double growth) {
-      const double matrix = model.is_dynamic ? 0. : 12. * growth * n * row;
+      const double matrix = is_explicit ? 0. : 12. * growth * n * row;
       // Multigrid takes about the matrix again; factors fill up like n log n in
       // the plane, and more than anyone should wait for in space.
       const double solver = model.linear_solver.is_direct(growth * n, dim) ?
@@ -165,7 +178,7 @@ namespace Signoton
           << std::fixed << std::setprecision(1) << std::setw(10)
           << growth * points * bytes / 1e6 << std::setw(10) << matrix / 1e6
           << std::setw(10) << solver / 1e6 << std::setw(10)
-          << (model.is_dynamic ? 12. : 30.) * 8. * growth * n / 1e6 << "\n";
+          << (is_explicit ? 12. : 30.) * 8. * growth * n / 1e6 << "\n";
     };
     out << "\nUnknowns " << n << ", cells " << cells << ", points " << points
         << "\nMemory forecast in MB, besides some 200 MB of libraries a rank:\n"

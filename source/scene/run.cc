@@ -1,4 +1,5 @@
 #include <signoton/drivers/explicit_dynamics.h>
+#include <signoton/drivers/implicit_dynamics.h>
 #include <signoton/drivers/point.h>
 #include <signoton/drivers/statics.h>
 #include <signoton/scene/requirements.h>
@@ -15,6 +16,16 @@ namespace Signoton
 {
   namespace
   {
+    /** The driver of dynamics that the scene chooses. */
+    template <int dim>
+    std::unique_ptr<Dynamics<dim>>
+    make_dynamics(Model<dim> &model)
+    {
+      if (model.time_integration.is_implicit())
+        return std::make_unique<ImplicitDynamics<dim>>(model);
+      return std::make_unique<ExplicitDynamics<dim>>(model);
+    }
+
     template <int dim>
     ExitStatus
     build_and_run(const MPI_Comm  &communicator,
@@ -33,10 +44,12 @@ namespace Signoton
              << (ranks == 1 ? " rank: " : " ranks: ")
              << (scene.title.empty() ? options.scene_file : scene.title)
              << "\n";
+      for (const auto &warning : scene.warnings)
+        screen << "  warning: " << warning << "\n";
       if (options.action != Options::Action::run)
         {
           if (scene.model.is_dynamic)
-            ExplicitDynamics<dim>(scene.model).validate();
+            make_dynamics(scene.model)->validate();
           if (options.action == Options::Action::explain)
             screen << "\n" << explain(scene.model);
           else
@@ -47,8 +60,7 @@ namespace Signoton
         if (effect.on)
           screen << "  " << effect.name << ": " << effect.why << "\n";
       return scene.model.is_dynamic ?
-               ExplicitDynamics<dim>(scene.model)
-                 .run(options.resume_directory) :
+               make_dynamics(scene.model)->run(options.resume_directory) :
                Statics<dim>(scene.model).run(options.resume_directory);
     }
     /** The file with what the command line overrides.

@@ -15,13 +15,62 @@ namespace Signoton
   {
     model.file       = file;
     model.is_dynamic = file.value({}, "Analysis", analysis) == "dynamics";
+    model.time_integration.scheme =
+      file.value({"Time integration"}, "Scheme", model.time_integration.scheme);
+    drop_unused();
     for (const auto &name : file.subsections({"Materials"}))
       model.materials.emplace_back(name);
     for (const auto &name : file.subsections({"Boundaries"}))
       model.conditions.emplace_back(name);
     add_parameters(handler);
-    file.apply_to(handler);
+    model.file.apply_to(handler);
     interpret();
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::drop_unused()
+  {
+    SceneFile &file = model.file;
+    const auto drop = [&](const std::string &section,
+                          const std::string &key = "") {
+      const auto sections = file.subsections({});
+      const bool is_there =
+        key.empty() ? std::find(sections.begin(), sections.end(), section) !=
+                        sections.end() :
+                      file.has({section}, key);
+      if (!is_there)
+        return;
+      warnings.push_back(file.where({section}, key) +
+                         " has no effect with Analysis = " + analysis +
+                         (model.is_dynamic ?
+                            ", Scheme = " + model.time_integration.scheme :
+                            std::string()));
+      file.remove({section}, key);
+    };
+    if (!model.is_dynamic)
+      {
+        drop("Time integration");
+        drop("Initial state", "Velocity");
+        for (const char *key :
+             {"Follow waves", "Refine threshold", "Coarsen threshold"})
+          drop("Refinement", key);
+        drop("Reference solution", "Velocity");
+        return;
+      }
+    drop("Load steps");
+    drop("Output", "Fields every");
+    for (const char *key : {"Cycles in first step",
+                            "Cycles per step",
+                            "Refine fraction",
+                            "Coarsen fraction",
+                            "Region weight"})
+      drop("Refinement", key);
+    if (!model.time_integration.is_implicit())
+      {
+        drop("Newton");
+        drop("Linear solver");
+      }
   }
 
   template <int dim>
@@ -85,28 +134,25 @@ namespace Signoton
                       "one expression per direction separated by ';'.");
     prm.leave_subsection();
 
+    prm.enter_subsection("Initial state");
+    const std::string entries =
+      dim == 2 ? "xx; yy; zz; xy" : "xx; yy; zz; xy; xz; yz";
+    prm.add_parameter("Strain",
+                      initial_strain_text,
+                      "Strain before anything moves, expressions " + entries +
+                        ": where it opens a contact, the medium is loosened.");
+    prm.add_parameter("Stress",
+                      initial_stress_text,
+                      "Stress before anything moves in Pa, expressions " +
+                        entries + ".");
     if (model.is_dynamic)
-      {
-        prm.enter_subsection("Initial state");
-        const std::string entries =
-          dim == 2 ? "xx; yy; zz; xy" : "xx; yy; zz; xy; xz; yz";
-        prm.add_parameter("Strain",
-                          initial_strain_text,
-                          "Strain before anything moves, expressions " +
-                            entries +
-                            ": where it opens a contact, the medium is "
-                            "loosened.");
-        prm.add_parameter("Stress",
-                          initial_stress_text,
-                          "Stress before anything moves in Pa, expressions " +
-                            entries + ".");
-        prm.add_parameter("Velocity",
-                          initial_velocity_text,
-                          "In m/s, one expression per direction separated by "
-                          "';'.");
-        prm.leave_subsection();
-        model.time_integration.add_parameters(prm);
-      }
+      prm.add_parameter("Velocity",
+                        initial_velocity_text,
+                        "In m/s, one expression per direction separated by "
+                        "';'.");
+    prm.leave_subsection();
+    if (model.is_dynamic)
+      model.time_integration.add_parameters(prm);
     else
       model.load_steps.add_parameters(prm);
 
@@ -117,9 +163,12 @@ namespace Signoton
                       Patterns::Integer(1, 2));
     prm.leave_subsection();
 
-    if (!model.is_dynamic)
+    if (model.is_dynamic)
+      model.wave_refinement.add_parameters(prm);
+    else
+      model.refinement.add_parameters(prm);
+    if (!model.is_dynamic || model.time_integration.is_implicit())
       {
-        model.refinement.add_parameters(prm);
         model.newton.add_parameters(prm);
         model.linear_solver.add_parameters(prm);
       }
@@ -174,13 +223,21 @@ namespace Signoton
         vector_function(reference_velocity_text,
                         file.where({"Reference solution"}, "Velocity"));
     model.gravity_varies = depends_on_time(gravity_text);
+    interpret_initial_state();
     if (model.is_dynamic)
       interpret_dynamics();
     else
       model.load_steps.check(file);
     if (!file.has({"Refinement"}, "Minimum level"))
-      model.refinement.set_minimum_level(model.geometry.initial_refinement);
-    model.refinement.check(file);
+      {
+        model.refinement.set_minimum_level(model.geometry.initial_refinement);
+        model.wave_refinement.set_minimum_level(
+          model.geometry.initial_refinement);
+      }
+    if (model.is_dynamic)
+      model.wave_refinement.check(file);
+    else
+      model.refinement.check(file);
 
     const std::string probes_at = file.where({"Output"}, "Probe points");
     for (const auto &point :
@@ -224,8 +281,7 @@ namespace Signoton
   void
   Scene<dim>::interpret_dynamics()
   {
-    const SceneFile      &file = model.file;
-    const SceneFile::Path path = {"Initial state"};
+    const SceneFile &file = model.file;
     model.time_integration.check(file);
     for (const auto &material : model.materials)
       if (!(material.density > 0.))
@@ -244,13 +300,21 @@ namespace Signoton
       viscosity.linear = 0.;
     if (linear && !file.has({"Time integration"}, "Quadratic shock viscosity"))
       viscosity.quadratic = 0.;
-    const auto function = [&](const std::string &key,
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::interpret_initial_state()
+  {
+    const SceneFile      &file     = model.file;
+    const SceneFile::Path path     = {"Initial state"};
+    const auto            function = [&](const std::string &key,
                               const std::string &text,
                               const unsigned int n_components) {
       const std::string where = file.where(path, key);
       return text.empty() ?
-               nullptr :
-               make_function<dim>(split_components(text, n_components, where),
+                          nullptr :
+                          make_function<dim>(split_components(text, n_components, where),
                                   constants,
                                   where);
     };
@@ -400,14 +464,11 @@ namespace Signoton
                                       model.load_steps.start);
     space.distribute_dofs();
     space.update_constraints(model.conditions);
+    model.mechanics->set_initial_state({model.initial_strain.get(),
+                                        model.initial_stress.get(),
+                                        model.file.where({"Initial state"})});
     if (model.is_dynamic)
-      {
-        model.mechanics->set_initial_state(
-          {model.initial_strain.get(),
-           model.initial_stress.get(),
-           model.file.where({"Initial state"})});
-        return;
-      }
+      return;
     check_supports();
     for (const auto &material : model.materials)
       if (material.may_lose_stiffness() && !(model.newton.regularization > 0.))

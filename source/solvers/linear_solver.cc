@@ -60,11 +60,13 @@ namespace Signoton
     const TrilinosWrappers::SparseMatrix   &new_matrix,
     const std::vector<std::vector<double>> &near_null_space,
     const unsigned int                      dim,
-    const unsigned int                      degree)
+    const unsigned int                      degree,
+    const bool                              symmetric)
   {
     const auto timer = ledger.time("preconditioner");
     clear();
-    matrix = &new_matrix;
+    matrix       = &new_matrix;
+    is_symmetric = symmetric;
     try
       {
         prepare(near_null_space, dim, degree);
@@ -161,7 +163,7 @@ namespace Signoton
       {
         if (direct)
           direct->solve(solution, rhs);
-        else if (parameters.method == "gmres")
+        else if (parameters.method == "gmres" || !is_symmetric)
           {
             SolverGMRES<VectorType>::AdditionalData options;
             options.max_n_tmp_vectors = 80;

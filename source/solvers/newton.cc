@@ -62,6 +62,7 @@ namespace Signoton
   {
     const double     slope_0  = gradient * dx;
     const double     energy_0 = energy;
+    const double     norm_0   = gradient.l2_norm();
     const VectorType x_0(x);
     double           alpha = 1.;
     for (unsigned int trial = 0;
@@ -79,7 +80,11 @@ namespace Signoton
                               std::abs(alpha * slope_0) > noise;
         const bool flat = std::abs(slope) <= 0.5 * std::abs(slope_0) &&
                           energy <= energy_0 + noise;
-        if (std::isfinite(energy) && (decrease || flat))
+        const bool better =
+          problem.has_potential() ?
+            decrease || flat :
+            gradient.l2_norm() <= (1. - 1e-4 * alpha) * norm_0;
+        if (std::isfinite(energy) && better)
           {
             if (trial > 0)
               energy = problem.evaluate(x, gradient, true);
@@ -149,7 +154,8 @@ namespace Signoton
             // load. A part of the elastic tangent shortens the increment where
             // the body is loose, and only there.
             double &rho = result.regularization;
-            if (linear.converged && gradient * dx < 0.)
+            if (linear.converged &&
+                (!problem.has_potential() || gradient * dx < 0.))
               {
                 const double shortest = rho < 0.1 ? 0.2 : 0.;
                 next.step_length =

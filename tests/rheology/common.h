@@ -140,6 +140,10 @@ namespace Signoton::Testing
     using Hardening  = SpringAndProjection<VonMisesCylinder<true>, Memory::all>;
     using PlasticMS  = SpringAndProjection<MisesSchleicherCone, Memory::all>;
     using PlasticSet = SpringAndProjection<PrincipalSet, Memory::all>;
+    using ConditionalMS =
+      ConditionalPlasticity<VonMisesCylinder<false>, MisesSchleicherCone>;
+    using ConditionalSet =
+      ConditionalPlasticity<VonMisesCylinder<false>, PrincipalSet>;
 
     return {
       {"elastic", Elastic(spring)},
@@ -165,11 +169,14 @@ namespace Signoton::Testing
       {"Coulomb plastic, kinematic", PlasticSet(spring, own, cohesive_coulomb)},
       {"Tresca", PlasticSet(spring, none, tresca)},
       {"Tresca, kinematic", PlasticSet(spring, own, tresca)},
+      {"conditional MS", ConditionalMS(spring, none, mises, cone)},
+      {"conditional Coulomb", ConditionalSet(spring, own, mises, coulomb)},
     };
   }
 
-  /** Whether check(name, law) holds for each of all_laws(); all are tried. */
-  template <typename Check>
+  /** Whether check(name, law) holds for each of all_laws(); all are tried.
+   *  @tparam any false: only laws with a potential */
+  template <bool any = true, typename Check>
   bool
   for_all_laws(const Check &check)
   {
@@ -177,8 +184,11 @@ namespace Signoton::Testing
     for (const auto &entry : all_laws())
       passed &= std::visit(
         [&](const auto &law) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(law)>, General>)
+          using ThisLaw = std::decay_t<decltype(law)>;
+          if constexpr (std::is_same_v<ThisLaw, General>)
             return false; // has tests of its own
+          else if constexpr (!any && !ThisLaw::has_potential)
+            return true; // so do these
           else
             return check(entry.name, law);
         },

@@ -45,6 +45,10 @@ namespace Signoton
     void
     set(const Path &path, const std::string &key, const std::string &value);
 
+    /** Remove a section with all that is below, or a key. */
+    void
+    remove(const Path &path, const std::string &key = "");
+
     /** Names of the sections directly below @p path, in order of the file. */
     std::vector<std::string>
     subsections(const Path &path) const;

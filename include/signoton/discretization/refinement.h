@@ -92,6 +92,17 @@ namespace Signoton
     unsigned int minimum_level    = 0;
     unsigned int maximum_unknowns = 1000000;
   };
+
+  /**
+   * Leave the coarsening flags only of complete families above a level without
+   * a finer neighbor, and no refinement flags. Whether such a neighbor is to be
+   * coarsened too is not known if it is on another rank, and the mesh must not
+   * depend on that.
+   */
+  template <int dim>
+  void
+  keep_coarsenable(parallel::distributed::Triangulation<dim> &mesh,
+                   const unsigned int                         minimum_level);
 } // namespace Signoton
 
 #endif

@@ -16,11 +16,14 @@ namespace Signoton
   {
   public:
     /** A node that is not free: where its unknowns stand in the local part of
-     *  a vector, and what is left of its accelerations. */
+     *  a vector, what is left of its accelerations, and how all its components
+     *  follow those that the constraints leave free: $u=Tu_\text{free}$ with
+     *  zero columns for the others. */
     struct Node
     {
       std::array<unsigned int, dim> index;
       Tensor<2, dim>                projector;
+      Tensor<2, dim>                follow;
     };
 
     /** Collect the nodes of the current mesh. The constraints of the space
@@ -31,6 +34,10 @@ namespace Signoton
     /** Take away what the supports take. */
     void
     project(VectorType &acceleration) const;
+
+    /** Let the forces on components that follow others act on those: $T^Tf$. */
+    void
+    condense(VectorType &force) const;
 
     /** Set the prescribed components of the velocity, constant over a step,
      *  such that the displacement is the prescribed one at its end.

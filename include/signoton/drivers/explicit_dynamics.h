@@ -1,116 +1,88 @@
 #ifndef signoton_drivers_explicit_dynamics_h
 #define signoton_drivers_explicit_dynamics_h
 
-#include <signoton/drivers/receipt.h>
-#include <signoton/drivers/run_output.h>
-#include <signoton/operators/absorbing_boundary.h>
-#include <signoton/operators/external_force.h>
+#include <signoton/drivers/dynamics.h>
 
 namespace Signoton
 {
   /**
-   * Waves by central differences with a diagonal mass $M$: from displacement,
-   * velocity and acceleration at $t_n$,
+   * Central differences: from displacement, velocity and acceleration at $t_n$,
    * $$ v_{n+1/2}=v_n+\tfrac{\tau}{2}a_n,\quad u_{n+1}=u_n+\tau v_{n+1/2},\quad
-   *    Ma_{n+1}=F(u_{n+1})-Cv_{n+1},\quad
+   *    Ma_{n+1}=L-F(u_{n+1})-Cv_{n+1},\quad
    *    v_{n+1}=v_{n+1/2}+\tfrac{\tau}{2}a_{n+1}, $$
    * of second order, stable for $\tau$ up to the time in which the fastest wave
-   * crosses the smallest cell. C are the dashpots of absorbing boundaries. Over
-   * a step, $\tfrac12 v\cdot Mv-\tfrac{\tau^2}{8}a\cdot Ma$ changes by the work
-   * of the mean of the forces at both ends, to round-off: the receipt is built
-   * on that.
+   * crosses the smallest cell. Over a step, $\tfrac12 v\cdot Mv-
+   * \tfrac{\tau^2}{8}a\cdot Ma$ changes by the work of the mean of the forces
+   * at both ends, to round-off: the receipt is built on that.
    */
   template <int dim>
-  class ExplicitDynamics
+  class ExplicitDynamics : public Dynamics<dim>
   {
   public:
-    explicit ExplicitDynamics(Model<dim> &model);
+    using Dynamics<dim>::Dynamics;
 
-    /** Start from the initial state, or from a checkpoint. */
-    ExitStatus
-    run(const std::string &resume_directory = "");
+  protected:
+    using typename Dynamics<dim>::Line;
 
-    /** Throw what run() would throw before its first step. */
     void
-    validate();
-
-  private:
-    /** Adapt to the mesh. */
-    void
-    setup();
+    setup() override;
 
     /** Steps of one size up to the end. */
     void
-    choose_step();
-
-    /** Velocities and forces at the start. */
+    choose_step() override;
     void
-    start();
+    step() override;
 
+    std::string
+    introduction() const override;
     void
-    step();
-
-    /** The loads at the present time. */
-    void
-    evaluate_loads();
-
-    /** Accelerations by the present forces. */
-    void
-    accelerate();
-
-    DynamicSums
-    material_sums(const DynamicSums &own) const;
-
-    double
-    kinetic_energy() const;
-
-    /** The numbers of the state, by name. */
+    add_columns(Line &line) const override;
+    std::pair<std::string, std::string>
+    screen_column() const override;
     std::vector<std::pair<std::string, double *>>
-    numbers_to_keep();
-    void
-    save();
-    void
-    resume(const std::string &directory);
+    numbers_to_keep() override;
+
+  private:
+    using Dynamics<dim>::model;
+    using Dynamics<dim>::supports;
+    using Dynamics<dim>::absorbing;
+    using Dynamics<dim>::moved;
+    using Dynamics<dim>::loads_vary;
+    using Dynamics<dim>::displacement;
+    using Dynamics<dim>::velocity;
+    using Dynamics<dim>::acceleration;
+    using Dynamics<dim>::mass;
+    using Dynamics<dim>::internal;
+    using Dynamics<dim>::external;
+    using Dynamics<dim>::dashpots;
+    using Dynamics<dim>::old_internal;
+    using Dynamics<dim>::old_external;
+    using Dynamics<dim>::old_dashpots;
+    using Dynamics<dim>::receipt;
+    using Dynamics<dim>::time;
+    using Dynamics<dim>::time_step;
+    using Dynamics<dim>::n_steps;
 
     /** What a cell must not exceed to be skipped, see
      *  Mechanics::dynamic_force(). */
     double
     quiet_displacement();
 
-    /** Statistics, fields and screen, as often as each is due. */
+    /** From $t_n$ to velocities in the middle of the step and displacements at
+     *  its end.
+     *  @return twice the kinetic energy of prescribed motions, and $a\cdot
+     *    Ma$, at $t_n$ on this rank */
+    std::pair<double, double>
+    move();
+
+    /** Add a step to the receipt. */
     void
-    report();
+    account(const DynamicSums &own, const std::pair<double, double> &before);
 
-    bool
-    is_reported() const
-    {
-      return steps_left == 0 ||
-             n_steps % model.time_integration.statistics_every == 0;
-    }
-
-    Model<dim>               &model;
-    RunOutput<dim>            output;
-    Supports<dim>             supports;
-    AbsorbingBoundary<dim>    absorbing;
-    SurfaceLoad<dim>          surface_load;
-    std::vector<unsigned int> moved; ///< unknowns with a prescribed motion
-    bool                      loads_vary = false; ///< in time
-    bool                      remembers = false; ///< any material has a history
-
-    VectorType displacement, velocity, acceleration;
-    VectorType mass, inverse_mass;
-    VectorType internal, external, dashpots;
-    VectorType old_internal, old_external, old_dashpots;
-    Receipt    receipt;
-    /** Work of the internal force, and energy of the accelerations in the
-     *  half steps, since the start. */
-    double       internal_work = 0., half_steps = 0., initial_stored = 0.;
     double       largest_displacement = 0.; ///< so far, in m
     double       quiet_share          = 0.; ///< of the cells, in the last step
-    double       time = 0., stable_step = 0., time_step = 0.;
-    unsigned int n_steps = 0, steps_left = 0;
-    unsigned int n_reported = 0, n_snapshots = 0, n_lines = 0;
-    std::unique_ptr<PointSpace<dim>> history_space;
+    double       stable_step          = 0.;
+    unsigned int steps_left           = 0;
   };
 } // namespace Signoton
 

@@ -3,6 +3,7 @@
 
 #include <signoton/base/ledger.h>
 #include <signoton/discretization/refinement.h>
+#include <signoton/discretization/wave_refinement.h>
 #include <signoton/operators/mechanics.h>
 #include <signoton/solvers/newton.h>
 
@@ -51,9 +52,26 @@ namespace Signoton
     void
     check(const SceneFile &file) const;
 
+    bool
+    is_implicit() const
+    {
+      return scheme == "implicit";
+    }
+
+    /** Implicit steps do not grow beyond this, in s. */
+    double
+    longest_step() const
+    {
+      return maximum_step > 0. ? maximum_step : (end - start) / 50.;
+    }
+
+    std::string    scheme           = "explicit";
     double         start            = 0.;
     double         end              = 1.;
     double         time_step        = 0.;
+    double         maximum_step     = 0.;
+    double         error_tolerance  = 1e-3;
+    double         spectral_radius  = 0.8;
     double         safety           = 0.9;
     ShockViscosity shock_viscosity  = {0.5, 1.2};
     bool           quiet_zones      = true;
@@ -95,6 +113,7 @@ namespace Signoton
     Newton::Parameters                   newton;
     LinearSolver::Parameters             linear_solver;
     Refinement                           refinement;
+    WaveRefinement                       wave_refinement;
     OutputParameters                     output;
     std::string                          resolved_scene;
 

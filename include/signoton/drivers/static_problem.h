@@ -29,6 +29,9 @@ namespace Signoton
              VectorType       &gradient,
              const bool        linearize) override;
 
+    bool
+    has_potential() const override;
+
     double
     force_scale(const VectorType &u) override;
 
@@ -39,12 +42,12 @@ namespace Signoton
           const double      regularization) override;
 
     /**
-     * Move @p u, which fulfills older constraints, to the present ones by one
-     * linear step with the tangent at @p u, so that a prescribed displacement
-     * spreads into the body instead of crushing a layer of cells.
+     * Move @p u by one linear step with the tangent there such that its
+     * prescribed part moves by @p lift: the displacement spreads into the body
+     * instead of crushing a layer of cells.
      */
     bool
-    predict(VectorType &u, const double regularization);
+    predict(VectorType &u, const VectorType &lift, const double regularization);
 
     /** Internal force minus loads with the entries of constrained unknowns:
      *  the forces of the supports. */
@@ -60,12 +63,19 @@ namespace Signoton
     VectorType
     internal_force_of_mesh(const VectorType &u);
 
+  protected:
+    /** Add what the stiffness is not to the matrix. */
+    virtual void
+    complete(TrilinosWrappers::SparseMatrix &)
+    {}
+
+    Model<dim> &model;
+
   private:
     /** Assemble and prepare the solver unless that is done already. */
     void
     prepare(const double regularization);
 
-    Model<dim>                      &model;
     SurfaceLoad<dim>                 surface_load;
     VectorType                       load;
     VectorType                       load_of_mesh;

@@ -43,14 +43,19 @@ namespace Signoton
     void
     add_force(const VectorType &velocity, VectorType &force) const;
 
-  private:
-    struct Node
+    /** A node with dashpots; what the supports leave of it as in Supports. */
+    struct Node : public Supports<dim>::Node
     {
-      std::array<unsigned int, dim> index;
-      Tensor<2, dim>                damping;   ///< C in kg/s
-      Tensor<2, dim>                projector; ///< of the supports
+      Tensor<2, dim> damping; ///< C in kg/s
     };
 
+    const std::vector<Node> &
+    damped_nodes() const
+    {
+      return nodes;
+    }
+
+  private:
     std::vector<Node> nodes;
   };
 } // namespace Signoton

@@ -4,20 +4,44 @@
 #include <signoton/discretization/space.h>
 #include <signoton/rheology/material.h>
 
+#include <deal.II/fe/fe_values.h>
+
+#include <boost/container/flat_map.hpp>
+
 namespace Signoton
 {
   /**
-   * The diagonal mass of the unknowns in kg: $\int\rho\,\varphi_i$ by the
-   * Gauss-Lobatto rule whose points are the nodes of the element, so that the
-   * matrix is diagonal by itself and its entries are positive. That would leave
-   * nothing for nodes on an axis of rotation: in axisymmetry the mass of a cell
-   * goes to its nodes in the proportions of $\int\rho\,\varphi_i^2$ (Hinton,
-   * Rock and Zienkiewicz 1976), which is the same where both apply.
-   *
-   * Hanging and periodic nodes give their mass to those that move them, in the
-   * parts in which they are moved: the mass of the body is kept, and a velocity
-   * that is constant has its momentum exactly. Their own entries are zero.
-   * Conditions at the boundary do not count.
+   * The diagonal mass of a cell at its unknowns in kg: $\int\rho\,\varphi_i$ by
+   * the Gauss-Lobatto rule whose points are the nodes of the element, so that
+   * the matrix is diagonal by itself and its entries are positive. That would
+   * leave nothing for nodes on an axis of rotation: in axisymmetry the mass of
+   * a cell goes to its nodes in the proportions of $\int\rho\,\varphi_i^2$
+   * (Hinton, Rock and Zienkiewicz 1976), which is the same where both apply.
+   */
+  template <int dim>
+  class CellMass
+  {
+  public:
+    CellMass(const Space<dim>                      &space,
+             const std::vector<Rheology::Material> &materials);
+
+    /** Valid until the next call. The cell need not be active. */
+    const Vector<double> &
+    operator()(const typename DoFHandler<dim>::cell_iterator &cell);
+
+  private:
+    const Space<dim>                                      &space;
+    FEValues<dim>                                          values;
+    boost::container::flat_map<types::material_id, double> density;
+    Vector<double>                                         mass;
+  };
+
+  /**
+   * The diagonal mass of all unknowns. Hanging and periodic nodes give their
+   * mass to those that move them, in the parts in which they are moved: the
+   * mass of the body is kept, and a velocity that is constant has its momentum
+   * exactly. Their own entries are zero. Conditions at the boundary do not
+   * count.
    */
   template <int dim>
   VectorType

@@ -113,7 +113,8 @@ namespace Signoton
 
     /**
      * Internal force $\int\sigma_{n+1}:\varepsilon(v)$ at a displacement that
-     * fulfills all constraints, and with it the trial history.
+     * fulfills all constraints, and with it the trial history. Shock viscosity
+     * is in it, with rates since the dilatation that is remembered.
      * @param with_tangent also keep the consistent tangent at the points
      * @return the incremental potential of the body in J
      */
@@ -175,9 +176,12 @@ namespace Signoton
     virtual EnergyBalance
     energy_balance(const VectorType &displacement) = 0;
 
-    /** Averages for the locally owned active cells, by active cell index. */
+    /** Averages for the locally owned active cells, by active cell index.
+     *  @param wanted the cells that are looked at, in the same order; all if it
+     *    is empty */
     virtual std::vector<CellAverages>
-    cell_averages(const VectorType &displacement) = 0;
+    cell_averages(const VectorType        &displacement,
+                  const std::vector<bool> &wanted = {}) = 0;
 
     /** The in-plane entries of the stress as a field of points, in the order
      *  of the raw entries of a SymmetricTensor<2,dim>. */
@@ -203,7 +207,8 @@ namespace Signoton
     /** Bytes on this rank by purpose. */
     struct Memory
     {
-      std::size_t history = 0, tangent = 0, mesh_data = 0;
+      std::size_t history = 0, tangent = 0, initial_state = 0,
+                  shock_viscosity = 0, mesh_data = 0;
     };
 
     virtual Memory

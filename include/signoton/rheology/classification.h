@@ -70,6 +70,12 @@ namespace Signoton::Rheology
   std::optional<Law>
   closed_form(const Scheme &scheme);
 
+  /** The law of a spring, a contact on a cone and a hinge on a von Mises
+   *  cylinder, with a binder in parallel, whose hinge sees the conditional
+   *  stress: see ConditionalPlasticity. */
+  Law
+  conditional_form(const Scheme &scheme, const Moduli &binder);
+
   /** Properties in words, for --explain. */
   std::string
   classification(const Scheme &scheme);

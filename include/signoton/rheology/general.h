@@ -29,6 +29,8 @@ namespace Signoton::Rheology
   class General
   {
   public:
+    static constexpr bool has_potential = true;
+
     explicit General(const Scheme &scheme);
 
     unsigned int

@@ -47,6 +47,9 @@ namespace Signoton::Rheology
   {
   public:
     static constexpr unsigned int n_tensors = 0, n_scalars = 0;
+    /** Whether the stress of a step is the derivative of a potential, so that
+     *  the tangent is symmetric. */
+    static constexpr bool has_potential = true;
 
     explicit Elastic(const Moduli &spring)
       : spring(spring)
@@ -121,6 +124,7 @@ namespace Signoton::Rheology
   public:
     static constexpr unsigned int n_tensors = memory == Memory::none ? 0 : 1;
     static constexpr unsigned int n_scalars = Set::hardens ? 1 : 0;
+    static constexpr bool         has_potential = true;
 
     using This = SpringAndProjection<Set, memory>;
 

@@ -95,6 +95,11 @@ namespace Signoton::Rheology
     bool
     may_lose_stiffness() const;
 
+    /** Whether the stress of a step is the derivative of a potential. If not,
+     *  the tangent is not symmetric. */
+    bool
+    has_potential() const;
+
     /** Whether an elastic binder is in parallel with the contact. */
     bool
     has_binder() const;
@@ -135,6 +140,7 @@ namespace Signoton::Rheology
 
     std::string rheology                    = "elastic";
     std::string admissible_set              = "mises schleicher";
+    std::string plastic_flow                = "series";
     std::string binder_kind                 = "none";
     double      bulk_modulus                = 0.;
     double      shear_modulus               = 0.;

@@ -47,8 +47,15 @@ namespace Signoton
 
     std::string title;
     std::string analysis = "statics";
+    /** What is in the file without an effect. */
+    std::vector<std::string> warnings;
 
   private:
+    /** One file may switch between analyses: drop what only the others use,
+     *  with a warning. */
+    void
+    drop_unused();
+
     void
     add_parameters(ParameterHandler &handler);
 
@@ -57,6 +64,8 @@ namespace Signoton
     interpret();
 
     /** The same for what only dynamics, or only statics, has. */
+    void
+    interpret_initial_state();
     void
     interpret_dynamics();
     void

@@ -64,12 +64,14 @@ namespace Signoton
      * @param near_null_space vectors of locally owned entries
      * @param dim unknowns at a node, which are numbered one after the other
      * @param degree polynomial degree of the elements
+     * @param symmetric if not, GMRES takes the place of conjugate gradients
      */
     void
     initialize(const TrilinosWrappers::SparseMatrix   &matrix,
                const std::vector<std::vector<double>> &near_null_space,
                const unsigned int                      dim,
-               const unsigned int                      degree);
+               const unsigned int                      degree,
+               const bool                              symmetric);
 
     /** Forget the matrix: to be called before it changes its size. */
     void
@@ -88,8 +90,9 @@ namespace Signoton
 
     const Parameters                                  &parameters;
     Ledger                                            &ledger;
-    const TrilinosWrappers::SparseMatrix              *matrix   = nullptr;
-    bool                                               is_ready = false;
+    const TrilinosWrappers::SparseMatrix              *matrix       = nullptr;
+    bool                                               is_ready     = false;
+    bool                                               is_symmetric = true;
     std::unique_ptr<TrilinosWrappers::PreconditionAMG> amg;
     std::unique_ptr<SolverControl>                     direct_control;
     std::unique_ptr<TrilinosWrappers::SolverDirect>    direct;

@@ -7,7 +7,8 @@ namespace Signoton
 {
   /**
    * A convex minimization problem as Newton's method sees it: the energy
-   * $J(x)$, its gradient, and a solver for the linearization.
+   * $J(x)$, its gradient, and a solver for the linearization. Equations without
+   * a potential pass as well: of them, only the residual is looked at.
    */
   class ConvexProblem
   {
@@ -25,6 +26,13 @@ namespace Signoton
     evaluate(const VectorType &x,
              VectorType       &gradient,
              const bool        linearize) = 0;
+
+    /** Whether evaluate() returns an energy whose gradient it is. */
+    virtual bool
+    has_potential() const
+    {
+      return true;
+    }
 
     /** Size of the forces that balance in the gradient at the point last
      *  evaluated: what a small gradient is compared with. */
@@ -76,7 +84,8 @@ namespace Signoton
    * A step length is accepted if it decreases the energy sufficiently
    * (Armijo), or, where differences of energies drown in round-off, if it
    * halves the slope. Otherwise the next trial is the secant zero of the
-   * slope, which a convex function makes monotone. If only short steps are
+   * slope, which a convex function makes monotone. Without an energy, the norm
+   * of the residual has to decrease. If only short steps are
    * acceptable, or the linear solver gives up, the tangent (never the
    * residual) is regularized by a multiple of the elastic one, which shrinks
    * again once full steps succeed.

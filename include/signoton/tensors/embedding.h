@@ -85,21 +85,24 @@ namespace Signoton
       }
   }
 
-  /** Entries a tangent of an embedding keeps: the upper triangle of the
-   *  condensed, symmetric matrix. */
+  /** Entries that a tangent of an embedding keeps: the condensed matrix, of a
+   *  symmetric one the upper triangle. */
   template <typename Embedding>
   constexpr unsigned int
-    n_tangent_entries = Embedding::strain_entries.size() *
-                        (Embedding::strain_entries.size() + 1) / 2;
+  n_tangent_entries(const bool symmetric)
+  {
+    constexpr unsigned int n = Embedding::strain_entries.size();
+    return symmetric ? n * (n + 1) / 2 : n * n;
+  }
 
   /** Write the condensed tangent to @p packed, row by row. */
-  template <typename Embedding, typename Number>
+  template <typename Embedding, bool symmetric, typename Number>
   void
   pack_tangent(const Tensor4<Number> &tangent, Number *packed)
   {
     constexpr auto &entries = Embedding::strain_entries;
     for (unsigned int a = 0; a < entries.size(); ++a)
-      for (unsigned int b = a; b < entries.size(); ++b)
+      for (unsigned int b = symmetric ? a : 0; b < entries.size(); ++b)
         {
           const auto row = Tensor2<>::unrolled_to_component_indices(entries[a]);
           const auto col = Tensor2<>::unrolled_to_component_indices(entries[b]);
@@ -108,7 +111,7 @@ namespace Signoton
   }
 
   /** The stress increment of a strain increment by a packed tangent. */
-  template <typename Embedding, typename Number>
+  template <typename Embedding, bool symmetric, typename Number>
   Tensor2<Number>
   apply_packed_tangent(const Number *packed, const Tensor2<Number> &strain)
   {
@@ -123,14 +126,18 @@ namespace Signoton
         out[a] = Number(0.);
       }
     for (unsigned int a = 0; a < n; ++a)
-      {
-        out[a] += *packed++ * in[a];
-        for (unsigned int b = a + 1; b < n; ++b)
-          {
-            out[a] += *packed * in[b];
-            out[b] += *packed++ * in[a];
-          }
-      }
+      if constexpr (symmetric)
+        {
+          out[a] += *packed++ * in[a];
+          for (unsigned int b = a + 1; b < n; ++b)
+            {
+              out[a] += *packed * in[b];
+              out[b] += *packed++ * in[a];
+            }
+        }
+      else
+        for (unsigned int b = 0; b < n; ++b)
+          out[a] += *packed++ * in[b];
     Tensor2<Number> stress;
     for (unsigned int a = 0; a < n; ++a)
       stress.access_raw_entry(entries[a]) = out[a];

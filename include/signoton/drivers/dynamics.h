@@ -1,0 +1,211 @@
+#ifndef signoton_drivers_dynamics_h
+#define signoton_drivers_dynamics_h
+
+#include <signoton/drivers/receipt.h>
+#include <signoton/drivers/run_output.h>
+#include <signoton/operators/absorbing_boundary.h>
+#include <signoton/operators/external_force.h>
+
+namespace Signoton
+{
+  /**
+   * Waves: the equation of motion $Ma+F(u)+Cv=L(t)$ with a diagonal mass M,
+   * internal forces F, dashpots C of absorbing boundaries and loads L, from the
+   * initial state to the end. Derived classes take the steps; here is what they
+   * share, the state and all that is told about it.
+   */
+  template <int dim>
+  class Dynamics
+  {
+  public:
+    explicit Dynamics(Model<dim> &model);
+    virtual ~Dynamics() = default;
+
+    /** Start from the initial state, or from a checkpoint. */
+    ExitStatus
+    run(const std::string &resume_directory = "");
+
+    /** Throw what run() would throw before its first step. */
+    void
+    validate();
+
+  protected:
+    using Line = typename RunOutput<dim>::Line;
+
+    /** Adapt to the mesh. */
+    virtual void
+    setup();
+
+    /** Choose the size of the steps from the present time on. */
+    virtual void
+    choose_step() = 0;
+
+    /** Go on to the next time: displacement, velocity, acceleration, forces,
+     *  trial history and receipt. */
+    virtual void
+    step() = 0;
+
+    /** What a scheme tells at its begin; of every step, in the statistics and
+     *  in a column of the screen. */
+    virtual std::string
+    introduction() const = 0;
+    virtual void
+    add_columns(Line &line) const = 0;
+    virtual std::pair<std::string, std::string>
+    screen_column() const = 0;
+
+    /** Numbers of the state of a scheme, by name, for checkpoints. */
+    virtual std::vector<std::pair<std::string, double *>>
+    numbers_to_keep();
+
+    /** The loads at the present time. */
+    void
+    evaluate_loads();
+
+    /** Accelerations by the present forces.
+     *  @param step in s if the velocity is that of the middle of a step, see
+     *    AbsorbingBoundary::accelerate(); zero if it is the present one */
+    void
+    accelerate(const double step);
+
+    /** The dashpots' forces at the present velocity. */
+    void
+    evaluate_dashpots();
+
+    /** Sums over all ranks. */
+    template <std::size_t n>
+    std::array<double, n>
+    sum(std::array<double, n> own) const
+    {
+      Utilities::MPI::sum(ArrayView<const double>(own.data(), n),
+                          model.communicator,
+                          ArrayView<double>(own.data(), n));
+      return own;
+    }
+
+    /** Whether the step that ends now gets a line of statistics. */
+    bool
+    is_reported() const
+    {
+      return is_finished() ||
+             n_steps % model.time_integration.statistics_every == 0;
+    }
+
+    bool
+    is_finished() const
+    {
+      return !(time < model.time_integration.end);
+    }
+
+    /** Whether the energies at the end of the step are asked for. */
+    bool
+    needs_energies() const
+    {
+      return remembers || is_reported() || is_line_due() || is_mesh_due();
+    }
+
+    Model<dim>               &model;
+    RunOutput<dim>            output;
+    Supports<dim>             supports;
+    AbsorbingBoundary<dim>    absorbing;
+    SurfaceLoad<dim>          surface_load;
+    std::vector<unsigned int> moved; ///< unknowns with a prescribed motion
+    bool                      loads_vary = false; ///< in time
+    bool                      remembers = false; ///< any material has a history
+
+    VectorType   displacement, velocity, acceleration;
+    VectorType   mass, inverse_mass;
+    VectorType   internal, external, dashpots;
+    VectorType   old_internal, old_external, old_dashpots;
+    Receipt      receipt;
+    double       time      = 0.;
+    double       time_step = 0.; ///< the last one, or the next
+    unsigned int n_steps   = 0;
+
+  private:
+    double
+    part_of_run() const
+    {
+      const TimeIntegration &parameters = model.time_integration;
+      return (time - parameters.start) / (parameters.end - parameters.start);
+    }
+
+    /** Of the run, for lines on the screen. */
+    unsigned int
+    twentieths() const
+    {
+      return static_cast<unsigned int>(20. * part_of_run() + 1e-9);
+    }
+
+    bool
+    is_line_due() const
+    {
+      return n_steps > 0 && twentieths() > n_lines;
+    }
+
+    bool
+    is_mesh_due() const
+    {
+      return model.wave_refinement.is_on() && !is_finished() &&
+             n_steps % model.wave_refinement.interval() == 0;
+    }
+
+    /** Velocities and forces at the start, on a mesh that suits them. */
+    void
+    start();
+    void
+    set_initial_motion();
+
+    /** Mark cells by the waves as they will be at the next look at the mesh;
+     *  false if none changes. */
+    bool
+    mark();
+
+    /** Go to the mesh that is marked. */
+    void
+    transfer();
+
+    /** Give the nodes what momentum they miss, and take what energy the
+     *  transfer has gained.
+     *  @param missing see MomentumTransfer
+     *  @param before  kinetic and stored energy on the old mesh */
+    void
+    balance_transfer(VectorType missing, const double before);
+
+    /** Take an energy in J from the motion of some unknowns relative to their
+     *  center of gravity, whose momentum stays; false if there is too little. */
+    bool
+    slow_down(const std::vector<bool> &wanted, const double energy);
+
+    /** Energy that is stored before anything moves. */
+    double
+    energy_at_rest() const;
+
+    double
+    kinetic_energy() const;
+
+    /** In kg m/s (per metre in plane strain). */
+    std::array<double, dim>
+    momentum() const;
+
+    void
+    save();
+    void
+    resume(const std::string &directory);
+
+    /** Statistics, fields and screen, as often as each is due. */
+    void
+    report();
+
+    void
+    add_statistics(const VectorType &u, const VectorType &v);
+
+    unsigned int n_reported = 0, n_snapshots = 0, n_lines = 0;
+    double       unknown_steps = 0.; ///< unknowns of all steps together
+    double       rest_energy   = 0.; ///< see energy_at_rest()
+    double       largest_jump  = 0.; ///< see WaveRefinement::mark()
+    std::unique_ptr<PointSpace<dim>> history_space;
+  };
+} // namespace Signoton
+
+#endif

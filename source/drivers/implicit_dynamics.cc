@@ -1,0 +1,341 @@
+#include <signoton/drivers/implicit_dynamics.h>
+
+namespace Signoton
+{
+  template <int dim>
+  ImplicitDynamics<dim>::ImplicitDynamics(Model<dim> &model)
+    : Dynamics<dim>(model)
+    , radius(model.time_integration.spectral_radius)
+    , beta(1. / ((1. + radius) * (1. + radius)))
+    , gamma(0.5 + (1. - radius) / (1. + radius))
+    , problem(model, supports, absorbing, mass)
+    , newton(model.newton)
+  {}
+
+  template <int dim>
+  void
+  ImplicitDynamics<dim>::setup()
+  {
+    Dynamics<dim>::setup();
+    problem.reinit();
+    this->old_external.reinit(external);
+    stable_step = model.mechanics->stable_time_step() *
+                  model.wave_refinement.finest_part(*model.space);
+  }
+
+  template <int dim>
+  double
+  ImplicitDynamics<dim>::shortest_step() const
+  {
+    return 1e-3 * (is_automatic ? std::min(stable_step, next_step) :
+                                  model.time_integration.time_step);
+  }
+
+  template <int dim>
+  void
+  ImplicitDynamics<dim>::choose_step()
+  {
+    const TimeIntegration &parameters = model.time_integration;
+    is_automatic                      = !(parameters.time_step > 0.);
+    if (!is_automatic)
+      next_step = parameters.time_step;
+    else if (!(next_step > 0.))
+      next_step = std::min(stable_step, parameters.longest_step());
+  }
+
+  template <int dim>
+  std::string
+  ImplicitDynamics<dim>::introduction() const
+  {
+    return (is_automatic ? "Steps from " : "Steps of ") +
+           short_number(next_step) + " s" +
+           (is_automatic ?
+              " up to " + short_number(model.time_integration.longest_step()) +
+                " s by the local error" :
+              std::string()) +
+           "; waves cross a cell in " + short_number(stable_step) + " s";
+  }
+
+  template <int dim>
+  void
+  ImplicitDynamics<dim>::add_columns(Line &line) const
+  {
+    line.emplace_back("local error", error);
+    line.emplace_back("Newton iterations", newton_iterations);
+    line.emplace_back("linear iterations", linear_iterations);
+    line.emplace_back("rejected steps", rejected);
+  }
+
+  template <int dim>
+  std::pair<std::string, std::string>
+  ImplicitDynamics<dim>::screen_column() const
+  {
+    return {"Newton", short_number(newton_iterations)};
+  }
+
+  template <int dim>
+  std::vector<std::pair<std::string, double *>>
+  ImplicitDynamics<dim>::numbers_to_keep()
+  {
+    auto numbers = Dynamics<dim>::numbers_to_keep();
+    numbers.emplace_back("next step", &next_step);
+    numbers.emplace_back("largest displacement", &largest);
+    numbers.emplace_back("rejected steps", &rejected);
+    return numbers;
+  }
+
+  template <int dim>
+  double
+  ImplicitDynamics<dim>::norm(const VectorType &vector) const
+  {
+    double own = 0.;
+    for (unsigned int i = 0; i < vector.locally_owned_size(); ++i)
+      own += mass.local_element(i) * vector.local_element(i) *
+             vector.local_element(i);
+    return std::sqrt(this->template sum<1>({{own}})[0]);
+  }
+
+  template <int dim>
+  NewtonResult
+  ImplicitDynamics<dim>::solve(Motion &trial)
+  {
+    const double dt = time_step;
+    this->evaluate_loads();
+    model.mechanics->set_time_step(dt);
+    trial = {displacement, velocity, acceleration};
+    supports.move(displacement, time, dt, trial.velocity);
+    VectorType lift, predicted(displacement), pull(external);
+    lift.reinit(displacement);
+    for (const unsigned int i : moved)
+      lift.local_element(i) = dt * trial.velocity.local_element(i);
+
+    // Without an acceleration at its end, the step would lead to a displacement
+    // and a velocity; the one of the dashpots is kept in the trial.
+    for (unsigned int i = 0; i < displacement.locally_owned_size(); ++i)
+      {
+        const double a = acceleration.local_element(i);
+        predicted.local_element(i) +=
+          dt * velocity.local_element(i) + dt * dt * (0.5 - beta) * a;
+        trial.velocity.local_element(i) =
+          velocity.local_element(i) + dt * (1. - gamma) * a;
+        pull.local_element(i) +=
+          radius * (old_external.local_element(i) - internal.local_element(i)) -
+          (2. * radius - 1.) * mass.local_element(i) * a;
+      }
+    for (const unsigned int i : moved)
+      {
+        trial.velocity.local_element(i) = lift.local_element(i) / dt;
+        predicted.local_element(i) =
+          displacement.local_element(i) + lift.local_element(i);
+      }
+    if (!absorbing.empty())
+      {
+        VectorType damped;
+        damped.reinit(pull);
+        absorbing.add_force(trial.velocity, damped);
+        pull.add(-1., damped, -radius, dashpots);
+      }
+    for (const unsigned int i : moved)
+      pull.local_element(i) = 0.;
+    problem.set_step((2. - radius) / (beta * dt * dt),
+                     gamma / (beta * dt),
+                     predicted,
+                     pull);
+
+    model.space->mesh_constraints.distribute(trial.displacement);
+    model.space->mesh_constraints.distribute(lift);
+    problem.predict(trial.displacement, lift, model.newton.regularization);
+    const NewtonResult result = newton.solve(problem, trial.displacement);
+    newton_iterations         = result.iterations();
+    linear_iterations         = result.linear_iterations();
+
+    for (unsigned int i = 0; i < displacement.locally_owned_size(); ++i)
+      if (mass.local_element(i) > 0.)
+        {
+          const double a =
+            (trial.displacement.local_element(i) - predicted.local_element(i)) /
+            (beta * dt * dt);
+          trial.acceleration.local_element(i) = a;
+          trial.velocity.local_element(i) += dt * gamma * a;
+        }
+      else // follows others
+        trial.displacement.local_element(i) = 0.;
+    for (const unsigned int i : moved)
+      {
+        trial.acceleration.local_element(i) = 0.;
+        trial.velocity.local_element(i)     = lift.local_element(i) / dt;
+      }
+    return result;
+  }
+
+  template <int dim>
+  double
+  ImplicitDynamics<dim>::local_error(const Motion &trial) const
+  {
+    VectorType change(trial.acceleration);
+    change -= acceleration;
+    const double scale = std::max(largest, norm(trial.displacement));
+    return scale > 0. ?
+             (beta - 1. / 6.) * time_step * time_step * norm(change) / scale :
+             0.;
+  }
+
+  template <int dim>
+  void
+  ImplicitDynamics<dim>::step()
+  {
+    const TimeIntegration &parameters = model.time_integration;
+    const double           start      = time;
+    old_external                      = external;
+    Motion trial;
+    while (true)
+      {
+        time_step = std::min(next_step, parameters.end - start);
+        // no sliver of a last step
+        if (start + 1.001 * time_step >= parameters.end)
+          time_step = parameters.end - start;
+        time = start + time_step;
+        model.set_time(time);
+        const NewtonResult result = solve(trial);
+        if (!result.converged)
+          {
+            rejected += 1.;
+            next_step = 0.5 * time_step;
+            if (next_step < shortest_step())
+              throw UserError("the step from t = " +
+                                Utilities::to_string(start),
+                              result.reason + ", in a step of " +
+                                short_number(time_step) + " s, too",
+                              "a step that converges",
+                              "another 'Linear solver / Method', more 'Newton "
+                              "/ Maximum iterations', shock viscosity, or "
+                              "'Scheme = explicit'",
+                              ExitStatus::failure);
+            time = start;
+            continue;
+          }
+        error = local_error(trial);
+        if (!is_automatic)
+          {
+            next_step = std::min(parameters.time_step,
+                                 std::max(next_step, 2. * time_step));
+            break;
+          }
+        const double wish =
+          0.8 * time_step *
+          std::cbrt(parameters.error_tolerance /
+                    std::max(error, 1e-3 * parameters.error_tolerance));
+        const double bounded =
+          std::clamp(wish,
+                     0.2 * time_step,
+                     std::max(stable_step, 2. * time_step));
+        const bool is_short = time_step <= 1.001 * stable_step;
+        if (error > 2. * parameters.error_tolerance && !is_short)
+          {
+            rejected += 1.;
+            next_step = std::max(stable_step, bounded);
+            time      = start;
+            continue;
+          }
+        next_step =
+          std::min(parameters.longest_step(),
+                   std::max(std::min(stable_step, 2. * time_step), bounded));
+        break;
+      }
+    if (!(time < parameters.end))
+      time = parameters.end;
+    ++n_steps;
+    accept(trial);
+  }
+
+  template <int dim>
+  void
+  ImplicitDynamics<dim>::accept(const Motion &trial)
+  {
+    internal.swap(old_internal);
+    if (!absorbing.empty())
+      dashpots.swap(old_dashpots);
+    const Motion before{displacement, velocity, acceleration};
+    displacement = trial.displacement;
+    velocity     = trial.velocity;
+    acceleration = trial.acceleration;
+    this->evaluate_dashpots();
+    largest = std::max(largest, norm(displacement));
+    DynamicSums own;
+    {
+      const auto timer = model.ledger.time("constitutive update");
+      own = model.mechanics->dynamic_force(displacement, internal, true, -1.);
+    }
+    account(own, before);
+  }
+
+  template <int dim>
+  void
+  ImplicitDynamics<dim>::account(const DynamicSums &own, const Motion &before)
+  {
+    // The equation of motion, tested with the increment of the displacement;
+    // means are those of the method.
+    const double new_part = 1. / (1. + radius), old_part = radius * new_part;
+    const auto   mean = [&](const VectorType  &now,
+                          const VectorType  &old,
+                          const unsigned int i) {
+      return new_part * now.local_element(i) + old_part * old.local_element(i);
+    };
+    double inner = 0., outer = 0., damped = 0., inertia = 0., kinetic = 0.,
+           gained = 0.;
+    for (unsigned int i = 0; i < displacement.locally_owned_size(); ++i)
+      {
+        const double m    = mass.local_element(i),
+                     path = displacement.local_element(i) -
+                            before.displacement.local_element(i),
+                     v = velocity.local_element(i),
+                     w = before.velocity.local_element(i);
+        inner += path * mean(internal, old_internal, i);
+        outer += path * mean(external, old_external, i);
+        if (!absorbing.empty())
+          damped += path * mean(dashpots, old_dashpots, i);
+        inertia += path * m * new_part *
+                   ((2. - radius) * acceleration.local_element(i) +
+                    (2. * radius - 1.) * before.acceleration.local_element(i));
+        kinetic += 0.5 * m * v * v;
+        gained += 0.5 * m * (v * v - w * w);
+      }
+    // a prescribed motion takes the force that it takes
+    double supported = 0.;
+    for (const unsigned int i : moved)
+      {
+        const double path = displacement.local_element(i) -
+                            before.displacement.local_element(i),
+                     v      = velocity.local_element(i),
+                     w      = before.velocity.local_element(i),
+                     change = 0.5 * mass.local_element(i) * (v * v - w * w);
+        double force =
+          mean(internal, old_internal, i) - mean(external, old_external, i);
+        if (!absorbing.empty())
+          force += mean(dashpots, old_dashpots, i);
+        supported += change + path * force;
+        gained -= change;
+      }
+    const auto sums = this->template sum<9>({{inner,
+                                              outer + supported,
+                                              damped,
+                                              inertia - gained,
+                                              kinetic,
+                                              own.stored,
+                                              own.dissipated,
+                                              own.viscous,
+                                              own.shock}});
+    receipt.time_stepping +=
+      sums[3] + sums[0] - (sums[5] - receipt.stored) - sums[6] - sums[8];
+    receipt.external_work += sums[1];
+    receipt.absorbed += sums[2];
+    receipt.kinetic = sums[4];
+    receipt.stored  = sums[5];
+    receipt.plastic += sums[6] - sums[7];
+    receipt.viscous += sums[7];
+    receipt.shock += sums[8];
+  }
+
+  template class ImplicitDynamics<2>;
+  template class ImplicitDynamics<3>;
+} // namespace Signoton

@@ -1,0 +1,217 @@
+// Generalized alpha: order 2 in time on a standing wave of a bar, elastic and
+// granular under pressure, for several spectral radii and degrees; the same
+// answer as central differences where both resolve the wave, on signotons and
+// with yielding grains, dashpots and a moving boundary; steps by local error.
+
+#include "verification.h"
+
+using namespace Verification;
+using Signoton::SceneFile;
+
+namespace
+{
+  SceneFile
+  read(const std::string &scene)
+  {
+    return SceneFile::read(source_directory + "/" + scene);
+  }
+
+  std::vector<PhysicalNumbers::Line>
+  history(const SceneFile &file, const Overrides &overrides)
+  {
+    std::ofstream("scene.prm") << file.text();
+    return run("scene.prm", overrides);
+  }
+
+  /** A bar between two planes of symmetry: its ends do not move, and what was
+   *  a sine stays one, $u=A\sin(\pi x)\cos(\pi ct)$. */
+  SceneFile
+  standing_wave(const int dim, const bool granular)
+  {
+    SceneFile         file;
+    const std::string zeros = dim == 2 ? "; 0" : "; 0; 0";
+    file.set({}, "Dimension", std::to_string(dim));
+    file.set({}, "Analysis", "dynamics");
+    file.set({"Geometry"}, "Generator", "subdivided_hyper_rectangle");
+    file.set({"Geometry"},
+             "Arguments",
+             dim == 2 ? "48, 1 : 0, 0 : 1, 0.1 : true" :
+                        "48, 1, 1 : 0, 0, 0 : 1, 0.1, 0.1 : true");
+    file.set({"Discretization"}, "Degree", "2");
+    const SceneFile::Path bar = {"Materials", "bar"};
+    if (granular)
+      {
+        // the stress of the wave stays inside the cone
+        file.set(bar, "Rheology", "elastic granular");
+        file.set(bar, "Admissible set", "coulomb mohr");
+        file.set(bar, "Friction angle", "60");
+        file.set({"Initial state"},
+                 "Stress",
+                 dim == 2 ? "-1; -1; -1; 0" : "-1; -1; -1; 0; 0; 0");
+      }
+    else
+      file.set(bar, "Rheology", "elastic");
+    file.set(bar, "Young modulus", "0.9");
+    file.set(bar, "Poisson ratio", "0.25"); // k + 4 mu / 3 = 1.08
+    file.set(bar, "Density", "1.08");
+    for (const std::string &name :
+         dim == 2 ? std::vector<std::string>{"left", "right", "bottom", "top"} :
+                    std::vector<std::string>{
+                      "left", "right", "front", "back", "bottom", "top"})
+      file.set({"Boundaries", name}, "Symmetry", "true");
+    file.set({"Initial state"}, "Velocity", "0.1*pi*sin(pi*x)" + zeros);
+    file.set({"Reference solution"},
+             "Displacement",
+             "0.1*sin(pi*x)*sin(pi*t)" + zeros);
+    file.set({"Reference solution"},
+             "Velocity",
+             "0.1*pi*sin(pi*x)*cos(pi*t)" + zeros);
+    file.set({"Time integration"}, "Scheme", "implicit");
+    file.set({"Time integration"}, "Linear shock viscosity", "0");
+    file.set({"Time integration"}, "Quadratic shock viscosity", "0");
+    file.set({"Time integration"}, "End time", "1.25");
+    return file;
+  }
+
+  void
+  order(Report &report)
+  {
+    report.out << "Standing wave: error in L2 of the displacement, in L1 of "
+                  "the velocity\n";
+    for (const int dim : {2, 3})
+      for (const bool granular : {false, true})
+        for (const double radius : {1., 0.8, 0.})
+          {
+            if (dim == 3 && radius > 0.9)
+              continue;
+            std::vector<double> errors, velocity_errors;
+            double              gap = 0.;
+            for (const int steps : {50, 100, 200})
+              {
+                const auto lines =
+                  history(standing_wave(dim, granular),
+                          {"Time integration/Time step=" +
+                             std::to_string(1.25 / steps),
+                           "Time integration/Spectral radius=" +
+                             std::to_string(radius)});
+                errors.push_back(value(lines.back(), "relative L2 error"));
+                velocity_errors.push_back(
+                  value(lines.back(), "relative L1 error of velocity"));
+                gap =
+                  std::max(gap, std::abs(value(lines.back(), "energy gap")));
+              }
+            std::ostringstream name;
+            name << dim << "D, " << (granular ? "granular" : "elastic")
+                 << ", radius " << radius;
+            report.out << name.str() << ": " << std::setprecision(3);
+            for (const double e : errors)
+              report.out << e << ' ';
+            report.out << "| ";
+            for (const double e : velocity_errors)
+              report.out << e << ' ';
+            report.out << '\n';
+            for (const auto &e : {errors, velocity_errors})
+              report.require_order(name.str(), std::log2(e[1] / e[2]), 1.9);
+            report.require(name.str() + ", energy gap", gap, 1e-8);
+          }
+  }
+
+  /** Explicit and implicit runs of a scene, as relative differences of the
+   *  numbers at its end. */
+  void
+  agreement(Report                         &report,
+            const std::string              &name,
+            const SceneFile                &file,
+            const Overrides                &overrides,
+            const std::string              &time_step,
+            const std::vector<std::string> &columns,
+            const double                    bound)
+  {
+    Overrides implicit = overrides;
+    implicit.insert(implicit.end(),
+                    {"Time integration/Scheme=implicit",
+                     "Time integration/Time step=" + time_step});
+    const auto a = history(file, overrides).back(),
+               b = history(file, implicit).back();
+    report.out << name << ", explicit and implicit:\n";
+    for (const auto &column : columns)
+      {
+        report.out << "  " << column << ' ' << std::setprecision(3)
+                   << value(a, column) << ' ' << value(b, column) << '\n';
+        report.require(name + ", " + column,
+                       value(b, column) / value(a, column) - 1.,
+                       bound);
+      }
+    report.require(name + ", energy gap", value(b, "energy gap"), 1e-8);
+  }
+
+  /** The tighter the tolerance, the smaller the error and the more steps. */
+  void
+  local_error(Report &report)
+  {
+    double old_error = 1e300, old_steps = 0.;
+    report.out << "Steps by local error: tolerance, steps, error\n";
+    for (const double tolerance : {1e-2, 1e-3, 1e-4})
+      {
+        std::ostringstream text;
+        text << tolerance;
+        const auto lines =
+          history(standing_wave(2, false),
+                  {"Time integration/Error tolerance=" + text.str(),
+                   "Time integration/Maximum time step=1",
+                   "Time integration/Linear shock viscosity=0"});
+        const double error = value(lines.back(), "relative L2 error"),
+                     steps = value(lines.back(), "step");
+        report.out << tolerance << ' ' << steps << ' ' << std::setprecision(2)
+                   << error << '\n';
+        report.require("the error shrinks",
+                       std::max(error / old_error, 0.),
+                       0.6);
+        report.require("steps grow in number",
+                       std::max(1.2 * old_steps - steps, 0.),
+                       0.);
+        for (std::size_t i = 1; i < lines.size(); ++i)
+          report.require("a local error",
+                         value(lines[i], "local error"),
+                         2.001 * tolerance);
+        old_error = error;
+        old_steps = steps;
+      }
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  Report                           report;
+  order(report);
+  local_error(report);
+  agreement(report,
+            "signoton before a piston",
+            read("prm/signoton_piston.prm"),
+            {"Geometry/Arguments=200, 2 : 0, 0 : 1, 0.01 : true",
+             "Output/Probe points=0.2, 0; 0.4, 0; 0.6, 0"},
+            "0.002",
+            {"kinetic energy",
+             "stored energy",
+             "shock dissipation",
+             "external work",
+             "displacement x at probe 1",
+             "displacement x at probe 3"},
+            0.01);
+  agreement(report,
+            "loosened, yielding grains",
+            read("tests/scenes/loosened_pulse.prm"),
+            {},
+            "0.01",
+            {"kinetic energy",
+             "stored energy",
+             "plastic dissipation",
+             "absorbed energy",
+             "external work",
+             "displacement y at probe 1",
+             "displacement x at probe 2"},
+            0.02);
+  return report.status();
+}
