@@ -89,6 +89,25 @@ namespace Signoton
                           "undeformed body.");
   }
 
+  types::boundary_id
+  boundary_id_of(const std::string   &name,
+                 const BoundaryNames &names,
+                 const std::string   &where)
+  {
+    const auto found = names.find(name);
+    if (found != names.end())
+      return found->second;
+    std::vector<std::string> known;
+    for (const auto &entry : names)
+      known.push_back(entry.first);
+    const std::string nearest = nearest_name(name, known);
+    throw UserError(where,
+                    "unknown boundary '" + name + "'",
+                    "one of: " + join(known, ", "),
+                    nearest.empty() ? "name it in 'Geometry / Boundary names'" :
+                                      "did you mean '" + nearest + "'?");
+  }
+
   template <int dim>
   void
   BoundaryCondition<dim>::initialize(const SceneFile     &file,
@@ -96,20 +115,7 @@ namespace Signoton
                                      const Constants     &constants)
   {
     const SceneFile::Path path = {"Boundaries", name};
-    if (names.count(name) == 0)
-      {
-        std::vector<std::string> known;
-        for (const auto &entry : names)
-          known.push_back(entry.first);
-        const std::string nearest = nearest_name(name, known);
-        throw UserError(file.where(path),
-                        "unknown boundary '" + name + "'",
-                        "one of: " + join(known, ", "),
-                        nearest.empty() ?
-                          "name it in 'Geometry / Boundary names'" :
-                          "did you mean '" + nearest + "'?");
-      }
-    id = names.at(name);
+    id                         = boundary_id_of(name, names, file.where(path));
 
     for (unsigned int d = 0; d < dim; ++d)
       if (!displacement_text[d].empty())

@@ -30,7 +30,11 @@ namespace Signoton
     moved = supports.moved();
     absorbing.reinit(space, model.materials, model.conditions, supports);
     surface_load.reinit(space, model.conditions);
+    point_forces.reinit(space, model.point_forces);
     loads_vary = model.gravity_varies ||
+                 std::any_of(model.point_forces.begin(),
+                             model.point_forces.end(),
+                             [](const auto &p) { return p.varies; }) ||
                  std::any_of(model.conditions.begin(),
                              model.conditions.end(),
                              [](const auto &c) { return c.varies(); });
@@ -314,6 +318,7 @@ namespace Signoton
                      model.space->mesh_constraints,
                      external);
     surface_load.add(model.space->mesh_constraints, external);
+    point_forces.add(model.space->mesh_constraints, external);
     external.compress(VectorOperation::add);
   }
 
@@ -426,6 +431,13 @@ namespace Signoton
         n_snapshots = snapshot;
         output.write_fields(u, &v, time, n_steps);
       }
+    const unsigned int sample =
+      static_cast<unsigned int>(part * model.output.line_samples + 1e-9);
+    if (n_steps == 0 || sample > n_samples)
+      {
+        n_samples = sample;
+        output.write_lines(u, &v, time);
+      }
     if (is_line_due())
       {
         n_lines = twentieths();
@@ -473,6 +485,7 @@ namespace Signoton
     checkpoint.set("accepted steps", n_steps);
     checkpoint.set("lines of statistics", n_reported);
     checkpoint.set("snapshots", n_snapshots);
+    checkpoint.set("samples", n_samples);
     output.save(checkpoint);
     checkpoint.write(history_space.get(),
                      {&displacement, &velocity, &acceleration, &internal});
@@ -489,6 +502,7 @@ namespace Signoton
     n_steps     = checkpoint.number("accepted steps");
     n_reported  = checkpoint.number("lines of statistics");
     n_snapshots = checkpoint.number("snapshots");
+    n_samples   = checkpoint.number("samples");
     n_lines     = twentieths();
     setup();
     checkpoint.load_fields(

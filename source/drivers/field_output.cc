@@ -120,6 +120,8 @@ namespace Signoton
     DataOutBase::VtkFlags flags;
     flags.time  = time;
     flags.cycle = step;
+    // the best compression takes longer than some steps
+    flags.compression_level = DataOutBase::VtkFlags::best_speed;
     output.set_flags(flags);
     // Through memory: deal.II's writers answer a full disk with an exception on
     // the rank that meets it, while the others would wait.

@@ -22,9 +22,29 @@ namespace Signoton
                           "last; 0: never.");
     handler.add_parameter("Probe points",
                           probe_text,
-                          "Points whose displacement (in dynamics: and "
-                          "velocity) is a column of the statistics: 'x, y; x, "
-                          "y' in 2D.");
+                          "Points with columns in the statistics: 'x, y; x, y' "
+                          "in 2D.");
+    handler.add_parameter("Probe surfaces",
+                          surface_text,
+                          "Boundaries with columns in the statistics, by name: "
+                          "means of displacement, velocity and, for stress, "
+                          "traction. 'top, plate'.");
+    handler.add_parameter("Probe quantities",
+                          probe_quantities,
+                          "Columns of points and surfaces.",
+                          Patterns::MultipleSelection(
+                            "displacement|velocity|stress"));
+    handler.add_parameter("Probe lines",
+                          line_text,
+                          "Lines with files of their own, and pictures over "
+                          "place and time: 'from : to : number of points; "
+                          "...', for instance '0, 0 : 1, 0 : 200'.");
+    if (is_dynamic)
+      handler.add_parameter("Probe line samples",
+                            line_samples,
+                            "How often lines are written, evenly over the "
+                            "run. In statics it is every step.",
+                            Patterns::Integer(1));
     if (!is_dynamic)
       handler.add_parameter("Newton history",
                             newton_history,

@@ -160,6 +160,7 @@ namespace Signoton
       const unsigned int every = model.output.fields_every;
       if (every > 0 && (is_last || accepted_steps % every == 0))
         output.write_fields(displacement, nullptr, record.time, accepted_steps);
+      output.write_lines(displacement, nullptr, record.time);
     }
     output.screen << std::setw(6) << accepted_steps << std::setw(9)
                   << short_number(record.time, 5) << std::setw(10)

@@ -1,7 +1,6 @@
 #include <signoton/base/output_file.h>
 #include <signoton/drivers/run_output.h>
 
-#include <deal.II/numerics/vector_tools_evaluate.h>
 #include <deal.II/numerics/vector_tools_integrate_difference.h>
 
 #include <filesystem>
@@ -39,7 +38,8 @@ namespace Signoton
           const std::string name = entry.path().filename().string();
           if (name == "statistics.csv" || name == "ledger.json" ||
               name == "checkpoint" || name.rfind("checkpoint.", 0) == 0 ||
-              name == "fields.pvd" || name.rfind("fields-", 0) == 0)
+              name == "fields.pvd" || name.rfind("fields-", 0) == 0 ||
+              name.rfind("line-", 0) == 0)
             old.push_back(entry.path());
         }
       for (const auto &path : old)
@@ -61,6 +61,7 @@ namespace Signoton
              Utilities::MPI::this_mpi_process(model.communicator) == 0)
     , model(model)
     , fields(model)
+    , probes(model)
   {}
 
   template <int dim>
@@ -133,46 +134,13 @@ namespace Signoton
   }
 
   template <int dim>
-  std::vector<double>
-  RunOutput<dim>::probe_values(const VectorType &field)
-  {
-    std::vector<double> result;
-    if (model.probes.empty())
-      return result;
-    VectorType u = model.space->make_relevant_vector();
-    u.copy_locally_owned_data_from(field);
-    u.update_ghost_values();
-    Utilities::MPI::RemotePointEvaluation<dim> cache;
-    for (const auto &value :
-         VectorTools::point_values<dim>(model.space->mapping,
-                                        model.space->dof_handler,
-                                        u,
-                                        model.probes,
-                                        cache))
-      for (unsigned int d = 0; d < dim; ++d)
-        result.push_back(value[d]);
-    return result;
-  }
-
-  template <int dim>
   void
   RunOutput<dim>::add_common(Line                           &line,
                              const VectorType               &displacement,
                              const VectorType               *velocity,
                              const std::vector<std::string> &phases)
   {
-    const std::array<std::string, 3> axes       = {{"x", "y", "z"}};
-    const auto                       add_probes = [&](const std::string &name,
-                                const VectorType  &field) {
-      const auto values = probe_values(field);
-      for (unsigned int i = 0; i < values.size(); ++i)
-        line.emplace_back(name + " " + axes[i % dim] + " at probe " +
-                            std::to_string(i / dim + 1),
-                          values[i]);
-    };
-    add_probes("displacement", displacement);
-    if (velocity != nullptr)
-      add_probes("velocity", *velocity);
+    probes.add_columns(line, displacement, velocity);
     if (model.reference)
       {
         const auto error =
@@ -223,6 +191,16 @@ namespace Signoton
   }
 
   template <int dim>
+  void
+  RunOutput<dim>::write_lines(const VectorType &displacement,
+                              const VectorType *velocity,
+                              const double      time)
+  {
+    if (probes.has_lines())
+      probes.write_lines(time, displacement, velocity);
+  }
+
+  template <int dim>
   std::string
   RunOutput<dim>::time_left(const double time) const
   {
@@ -247,6 +225,11 @@ namespace Signoton
     if (!fields.snapshots().empty())
       screen << "Fields for ParaView: " << model.output.directory
              << "/fields.pvd\n";
+    if (probes.has_lines())
+      screen << (probes.draw_lines() ?
+                   "Lines over time:     " :
+                   "Lines over time (gnuplot could not draw them): ")
+             << model.output.directory << "/line-*\n";
     screen << "Statistics by step:  " << model.output.directory
            << "/statistics.csv\n";
   }
@@ -257,6 +240,7 @@ namespace Signoton
   {
     for (const auto &[time, file] : fields.snapshots())
       checkpoint.set("snapshot " + file, time);
+    probes.save(checkpoint);
   }
 
   template <int dim>
@@ -271,6 +255,7 @@ namespace Signoton
       snapshots.emplace_back(checkpoint.number(name),
                              name.substr(prefix.size()));
     fields.resume(snapshots);
+    probes.resume(checkpoint);
 
     // drop lines of steps that are taken again
     const std::string file_name = model.output.directory + "/statistics.csv";

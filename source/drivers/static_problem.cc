@@ -23,6 +23,7 @@ namespace Signoton
     model.mechanics->initialize_vector(load);
     model.mechanics->initialize_vector(load_of_mesh);
     surface_load.reinit(space, model.conditions);
+    point_forces.reinit(space, model.point_forces);
 
     // The pattern has the rows and columns of boundary conditions, too: they
     // may eliminate one unknown of a node only, and multigrid aggregates whole
@@ -68,6 +69,7 @@ namespace Signoton
         add_body_force(
           space, model.materials, *model.gravity, constraints, force);
       surface_load.add(constraints, force);
+      point_forces.add(constraints, force);
       force.compress(VectorOperation::add);
     };
     collect(space.constraints, load);

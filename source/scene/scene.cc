@@ -1,10 +1,7 @@
 #include <signoton/base/scene_template.h>
 #include <signoton/scene/scene.h>
 
-#include <deal.II/base/mpi_remote_point_evaluation.h>
-
 #include <algorithm>
-#include <set>
 #include <sstream>
 
 namespace Signoton
@@ -22,6 +19,8 @@ namespace Signoton
       model.materials.emplace_back(name);
     for (const auto &name : file.subsections({"Boundaries"}))
       model.conditions.emplace_back(name);
+    for (const auto &name : file.subsections({"Point forces"}))
+      model.point_forces.emplace_back(name);
     add_parameters(handler);
     model.file.apply_to(handler);
     interpret();
@@ -119,6 +118,15 @@ namespace Signoton
       {
         prm.enter_subsection(condition.name);
         condition.add_parameters(prm);
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+
+    prm.enter_subsection("Point forces");
+    for (auto &force : model.point_forces)
+      {
+        prm.enter_subsection(force.name);
+        force.add_parameters(prm);
         prm.leave_subsection();
       }
     prm.leave_subsection();
@@ -239,32 +247,9 @@ namespace Signoton
     else
       model.refinement.check(file);
 
-    const std::string probes_at = file.where({"Output"}, "Probe points");
-    for (const auto &point :
-         Utilities::split_string_list(model.output.probe_text, ';'))
-      {
-        const auto coordinates = Utilities::split_string_list(point, ',');
-        if (coordinates.size() != dim)
-          throw UserError(probes_at,
-                          "'" + point + "'",
-                          std::to_string(dim) + " coordinates of each point",
-                          "separate coordinates by ',' and points by ';'");
-        Point<dim> p;
-        try
-          {
-            for (unsigned int d = 0; d < dim; ++d)
-              p[d] = Utilities::string_to_double(coordinates[d]);
-          }
-        catch (const ExceptionBase &)
-          {
-            throw UserError(probes_at,
-                            "'" + point + "'",
-                            "numbers",
-                            "coordinates of probes are no expressions");
-          }
-        model.probes.push_back(p);
-      }
-
+    for (auto &force : model.point_forces)
+      force.initialize(file, constants);
+    interpret_probes();
     model.space = std::make_unique<Space<dim>>(model.communicator,
                                                degree,
                                                embedding == "axisymmetric");
@@ -336,115 +321,6 @@ namespace Signoton
 
   template <int dim>
   void
-  Scene<dim>::check_boundaries() const
-  {
-    if (model.is_dynamic)
-      return;
-    for (const auto &condition : model.conditions)
-      if (const std::string key = condition.dynamic_key(); !key.empty())
-        throw UserError(model.file.where({"Boundaries", condition.name}, key),
-                        "'" + key + "' with Analysis = statics",
-                        "Analysis = dynamics",
-                        "remove it, or 'set Analysis = dynamics'");
-  }
-
-  template <int dim>
-  void
-  Scene<dim>::check_materials() const
-  {
-    std::set<types::material_id> known;
-    for (const auto &material : model.materials)
-      if (!known.insert(material.id).second)
-        throw UserError(model.file.where({"Materials", material.name},
-                                         "Material id"),
-                        "material id " + std::to_string(material.id) +
-                          " for a second time",
-                        "one material for each id",
-                        "give the materials different ids");
-    unsigned int missing = 0;
-    for (const auto &cell : model.space->mesh.active_cell_iterators())
-      if (cell->is_locally_owned() && known.count(cell->material_id()) == 0)
-        missing = std::max(missing, cell->material_id() + 1);
-    missing = Utilities::MPI::max(missing, model.communicator);
-    if (missing > 0)
-      {
-        std::vector<std::string> ids;
-        for (const auto id : known)
-          ids.push_back(std::to_string(id));
-        throw UserError(model.file.where({"Materials"}),
-                        "cells of the mesh with material id " +
-                          std::to_string(missing - 1) +
-                          ", which no material has",
-                        "a material for every id of the mesh; known are " +
-                          join(ids, ", "),
-                        "add a material with 'set Material id = " +
-                          std::to_string(missing - 1) + "'");
-      }
-  }
-
-  template <int dim>
-  void
-  Scene<dim>::check_supports() const
-  {
-    const auto &space = *model.space;
-    const auto  free  = free_rigid_motions(space.mapping,
-                                         space.dof_handler,
-                                         space.constraints,
-                                         space.axisymmetric);
-    if (!free.empty())
-      throw UserError(model.file.where({"Boundaries"}),
-                      "the body can move freely: " + join(free, "; "),
-                      "supports that prevent every rigid motion",
-                      "add 'Symmetry' or 'Displacement' at some boundary");
-  }
-
-  template <int dim>
-  void
-  Scene<dim>::check_mesh() const
-  {
-    const auto &space = *model.space;
-    if (space.axisymmetric)
-      {
-        double lowest = 0., size = 0.;
-        for (const auto &vertex : space.mesh.get_vertices())
-          {
-            lowest = std::min(lowest, vertex[0]);
-            size   = std::max(size, vertex.norm());
-          }
-        if (Utilities::MPI::min(lowest, model.communicator) < -1e-10 * size)
-          throw UserError(model.file.where({}, "Embedding"),
-                          "a mesh that reaches to x = " +
-                            Utilities::to_string(lowest),
-                          "x >= 0: x is the distance from the axis",
-                          "shift the mesh, or model one half of it");
-      }
-    Utilities::MPI::RemotePointEvaluation<dim> search;
-    search.reinit(model.probes, space.mesh, space.mapping);
-    for (unsigned int i = 0; i < model.probes.size(); ++i)
-      if (!search.point_found(i))
-        {
-          std::ostringstream point;
-          point << model.probes[i];
-          throw UserError(model.file.where({"Output"}, "Probe points"),
-                          "point " + point.str() + ", which is not in the body",
-                          "points of the body",
-                          "on curved boundaries of the mesh, stay a little "
-                          "inside");
-        }
-    std::map<types::boundary_id, std::string> first;
-    for (const auto &condition : model.conditions)
-      if (const auto [other, is_first] =
-            first.emplace(condition.id, condition.name);
-          !is_first)
-        throw UserError(model.file.where({"Boundaries", condition.name}),
-                        "a second name for the boundary '" + other->second +
-                          "'",
-                        "the conditions of a boundary in one subsection",
-                        "see 'Geometry / Boundary names'");
-  }
-
-  template <int dim>
-  void
   Scene<dim>::build()
   {
     auto &space = *model.space;
@@ -457,6 +333,7 @@ namespace Signoton
       condition.initialize(model.file, space.boundary.names, constants);
     check_boundaries();
     check_mesh();
+    check_probes();
     model.mechanics = make_mechanics(space, model.materials);
 
     const auto timer = model.ledger.time("setup");

@@ -82,6 +82,13 @@ namespace Signoton
     std::string                  pressure_text;
   };
 
+  /** The boundary of a name; a UserError if nobody is called so.
+   *  @param where in the scene file the name stands */
+  types::boundary_id
+  boundary_id_of(const std::string   &name,
+                 const BoundaryNames &names,
+                 const std::string   &where);
+
   template <int dim>
   using BoundaryConditions = std::vector<BoundaryCondition<dim>>;
 

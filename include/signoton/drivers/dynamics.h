@@ -109,6 +109,7 @@ namespace Signoton
     Supports<dim>             supports;
     AbsorbingBoundary<dim>    absorbing;
     SurfaceLoad<dim>          surface_load;
+    PointForces<dim>          point_forces;
     std::vector<unsigned int> moved; ///< unknowns with a prescribed motion
     bool                      loads_vary = false; ///< in time
     bool                      remembers = false; ///< any material has a history
@@ -200,7 +201,7 @@ namespace Signoton
     void
     add_statistics(const VectorType &u, const VectorType &v);
 
-    unsigned int n_reported = 0, n_snapshots = 0, n_lines = 0;
+    unsigned int n_reported = 0, n_snapshots = 0, n_samples = 0, n_lines = 0;
     double       unknown_steps = 0.; ///< unknowns of all steps together
     double       rest_energy   = 0.; ///< see energy_at_rest()
     double       largest_jump  = 0.; ///< see WaveRefinement::mark()

@@ -5,6 +5,7 @@
 #include <signoton/discretization/refinement.h>
 #include <signoton/discretization/wave_refinement.h>
 #include <signoton/operators/mechanics.h>
+#include <signoton/operators/point_forces.h>
 #include <signoton/solvers/newton.h>
 
 namespace Signoton
@@ -19,6 +20,10 @@ namespace Signoton
     unsigned int fields_every     = 1;
     unsigned int checkpoint_every = 0;
     std::string  probe_text       = "";
+    std::string  probe_quantities = "displacement, velocity";
+    std::string  surface_text     = "";
+    std::string  line_text        = "";
+    unsigned int line_samples     = 200;
     bool         newton_history   = false;
   };
 
@@ -79,6 +84,23 @@ namespace Signoton
     unsigned int   snapshots        = 20;
   };
 
+  /** Points on a straight line, evenly spaced. */
+  template <int dim>
+  struct ProbeLine
+  {
+    Point<dim>   from, to;
+    unsigned int n_points = 2;
+
+    std::vector<Point<dim>>
+    points() const
+    {
+      std::vector<Point<dim>> result;
+      for (unsigned int i = 0; i < n_points; ++i)
+        result.push_back(from + (double(i) / (n_points - 1)) * (to - from));
+      return result;
+    }
+  };
+
   /**
    * Everything a scene consists of once it is built; drivers work on it.
    */
@@ -96,12 +118,16 @@ namespace Signoton
     Geometry                             geometry;
     std::vector<Rheology::Material>      materials;
     BoundaryConditions<dim>              conditions;
+    std::vector<PointForce<dim>>         point_forces;
     std::unique_ptr<FunctionParser<dim>> gravity;
     /** An exact displacement to compare with, if the scene gives one. */
     std::unique_ptr<FunctionParser<dim>> reference;
     /** The same for the velocity, in dynamics. */
     std::unique_ptr<FunctionParser<dim>> reference_velocity;
     std::vector<Point<dim>>              probes;
+    std::vector<ProbeLine<dim>>          probe_lines;
+    /** Names and ids of boundaries. */
+    std::vector<std::pair<std::string, types::boundary_id>> probe_surfaces;
     /** The state before anything moves, if the scene gives one; strains and
      *  stresses in the components that the embedding has. */
     std::unique_ptr<FunctionParser<dim>> initial_strain, initial_stress;
@@ -125,6 +151,9 @@ namespace Signoton
     {
       for (auto &condition : conditions)
         condition.set_time(time);
+      for (auto &point : point_forces)
+        if (point.force)
+          point.force->set_time(time);
       if (gravity)
         gravity->set_time(time);
       if (reference)

@@ -3,6 +3,7 @@
 
 #include <signoton/drivers/checkpoint.h>
 #include <signoton/drivers/field_output.h>
+#include <signoton/drivers/probes.h>
 
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/numerics/vector_tools_common.h>
@@ -48,6 +49,12 @@ namespace Signoton
                  const double       time,
                  const unsigned int step);
 
+    /** See Probes::write_lines(). */
+    void
+    write_lines(const VectorType &displacement,
+                const VectorType *velocity,
+                const double      time);
+
     /** Estimate of the time left, at a time of the run. */
     std::string
     time_left(const double time) const;
@@ -76,13 +83,11 @@ namespace Signoton
                     const Function<dim>        &reference,
                     const VectorTools::NormType norm);
 
-    std::vector<double>
-    probe_values(const VectorType &field);
-
     Model<dim>      &model;
     double           start_time = 0., end_time = 1.;
     bool             resumed = false;
     FieldOutput<dim> fields;
+    Probes<dim>      probes;
   };
 
   /** A number for the screen. */

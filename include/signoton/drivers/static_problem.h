@@ -77,6 +77,7 @@ namespace Signoton
     prepare(const double regularization);
 
     SurfaceLoad<dim>                 surface_load;
+    PointForces<dim>                 point_forces;
     VectorType                       load;
     VectorType                       load_of_mesh;
     TrilinosWrappers::SparseMatrix   matrix;

@@ -79,6 +79,11 @@ namespace Signoton
     void
     check_supports() const;
 
+    void
+    interpret_probes();
+    void
+    check_probes();
+
     ParameterHandler handler;
     int              dimension      = dim;
     std::string      embedding      = dim == 2 ? "plane strain" : "solid";

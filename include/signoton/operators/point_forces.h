@@ -1,0 +1,67 @@
+#ifndef signoton_operators_point_forces_h
+#define signoton_operators_point_forces_h
+
+#include <signoton/discretization/space.h>
+
+#include <deal.II/base/mpi_remote_point_evaluation.h>
+
+namespace Signoton
+{
+  /** A concentrated force, by its subsection of `Point forces`. */
+  template <int dim>
+  class PointForce
+  {
+  public:
+    explicit PointForce(const std::string &name)
+      : name(name)
+    {}
+
+    void
+    add_parameters(ParameterHandler &handler);
+
+    /** Parse the place and the expressions. */
+    void
+    initialize(const SceneFile &file, const Constants &constants);
+
+    std::string                          name;
+    Point<dim>                           place;
+    std::unique_ptr<FunctionParser<dim>> force;          ///< in N
+    bool                                 varies = false; ///< in time
+
+  private:
+    std::string place_text, force_text;
+  };
+
+  /**
+   * Forces on the nodes from concentrated forces, in N (per metre in plane
+   * strain, on the whole circle in axisymmetry). The displacement under a point
+   * force is infinite in the continuum: it depends on the mesh; elsewhere it
+   * converges.
+   */
+  template <int dim>
+  class PointForces
+  {
+  public:
+    using List = std::vector<PointForce<dim>>;
+
+    /** Find the points in the current mesh. @p list must outlive the object. */
+    void
+    reinit(const Space<dim> &space, const List &list);
+
+    /** Add the forces at the time last set. The caller compresses. */
+    void
+    add(const AffineConstraints<double> &constraints, VectorType &force) const;
+
+  private:
+    const Space<dim>                                           *space = nullptr;
+    const List                                                 *list  = nullptr;
+    std::unique_ptr<Utilities::MPI::RemotePointEvaluation<dim>> search;
+  };
+
+  /** Coordinates separated by ','. */
+  template <int dim>
+  Point<dim>
+  parse_point(const std::string &text, const std::string &where);
+} // namespace Signoton
+
+#endif

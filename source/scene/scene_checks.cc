@@ -1,0 +1,188 @@
+#include <signoton/scene/scene.h>
+
+#include <deal.II/base/mpi_remote_point_evaluation.h>
+
+#include <set>
+#include <sstream>
+
+// What a scene checks once it has its mesh, and its probes.
+
+namespace Signoton
+{
+  template <int dim>
+  void
+  Scene<dim>::check_boundaries() const
+  {
+    if (model.is_dynamic)
+      return;
+    for (const auto &condition : model.conditions)
+      if (const std::string key = condition.dynamic_key(); !key.empty())
+        throw UserError(model.file.where({"Boundaries", condition.name}, key),
+                        "'" + key + "' with Analysis = statics",
+                        "Analysis = dynamics",
+                        "remove it, or 'set Analysis = dynamics'");
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::check_materials() const
+  {
+    std::set<types::material_id> known;
+    for (const auto &material : model.materials)
+      if (!known.insert(material.id).second)
+        throw UserError(model.file.where({"Materials", material.name},
+                                         "Material id"),
+                        "material id " + std::to_string(material.id) +
+                          " for a second time",
+                        "one material for each id",
+                        "give the materials different ids");
+    unsigned int missing = 0;
+    for (const auto &cell : model.space->mesh.active_cell_iterators())
+      if (cell->is_locally_owned() && known.count(cell->material_id()) == 0)
+        missing = std::max(missing, cell->material_id() + 1);
+    missing = Utilities::MPI::max(missing, model.communicator);
+    if (missing > 0)
+      {
+        std::vector<std::string> ids;
+        for (const auto id : known)
+          ids.push_back(std::to_string(id));
+        throw UserError(model.file.where({"Materials"}),
+                        "cells of the mesh with material id " +
+                          std::to_string(missing - 1) +
+                          ", which no material has",
+                        "a material for every id of the mesh; known are " +
+                          join(ids, ", "),
+                        "add a material with 'set Material id = " +
+                          std::to_string(missing - 1) + "'");
+      }
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::check_supports() const
+  {
+    const auto &space = *model.space;
+    const auto  free  = free_rigid_motions(space.mapping,
+                                         space.dof_handler,
+                                         space.constraints,
+                                         space.axisymmetric);
+    if (!free.empty())
+      throw UserError(model.file.where({"Boundaries"}),
+                      "the body can move freely: " + join(free, "; "),
+                      "supports that prevent every rigid motion",
+                      "add 'Symmetry' or 'Displacement' at some boundary");
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::check_mesh() const
+  {
+    const auto &space = *model.space;
+    if (space.axisymmetric)
+      {
+        double lowest = 0., size = 0.;
+        for (const auto &vertex : space.mesh.get_vertices())
+          {
+            lowest = std::min(lowest, vertex[0]);
+            size   = std::max(size, vertex.norm());
+          }
+        if (Utilities::MPI::min(lowest, model.communicator) < -1e-10 * size)
+          throw UserError(model.file.where({}, "Embedding"),
+                          "a mesh that reaches to x = " +
+                            Utilities::to_string(lowest),
+                          "x >= 0: x is the distance from the axis",
+                          "shift the mesh, or model one half of it");
+      }
+    std::map<types::boundary_id, std::string> first;
+    for (const auto &condition : model.conditions)
+      if (const auto [other, is_first] =
+            first.emplace(condition.id, condition.name);
+          !is_first)
+        throw UserError(model.file.where({"Boundaries", condition.name}),
+                        "a second name for the boundary '" + other->second +
+                          "'",
+                        "the conditions of a boundary in one subsection",
+                        "see 'Geometry / Boundary names'");
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::interpret_probes()
+  {
+    const std::string points_at = model.file.where({"Output"}, "Probe points");
+    for (const auto &text :
+         Utilities::split_string_list(model.output.probe_text, ';'))
+      model.probes.push_back(parse_point<dim>(text, points_at));
+    const std::string lines_at = model.file.where({"Output"}, "Probe lines");
+    for (const auto &text :
+         Utilities::split_string_list(model.output.line_text, ';'))
+      {
+        const auto parts = Utilities::split_string_list(text, ':');
+        int        n     = 0;
+        try
+          {
+            n = parts.size() == 3 ? Utilities::string_to_int(parts[2]) : 0;
+          }
+        catch (const ExceptionBase &)
+          {}
+        if (n < 2)
+          throw UserError(lines_at,
+                          "'" + text + "'",
+                          "'from : to : number of points', at least 2",
+                          dim == 2 ? "for instance '0, 0 : 1, 0 : 200'" :
+                                     "for instance '0, 0, 0 : 1, 0, 0 : 200'");
+        model.probe_lines.push_back({parse_point<dim>(parts[0], lines_at),
+                                     parse_point<dim>(parts[1], lines_at),
+                                     static_cast<unsigned int>(n)});
+      }
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::check_probes()
+  {
+    const auto &space = *model.space;
+    const auto  look  = [&](const std::vector<Point<dim>> &points,
+                          const SceneFile::Path         &path,
+                          const std::string             &key) {
+      Utilities::MPI::RemotePointEvaluation<dim> search;
+      search.reinit(points, space.mesh, space.mapping);
+      for (unsigned int i = 0; i < points.size(); ++i)
+        if (!search.point_found(i))
+          {
+            std::ostringstream point;
+            point << points[i];
+            throw UserError(model.file.where(path, key),
+                            "point " + point.str() +
+                              ", which is not in the body",
+                            "points of the body",
+                            "on curved boundaries of the mesh, stay a little "
+                              "inside");
+          }
+    };
+    look(model.probes, {"Output"}, "Probe points");
+    for (const auto &line : model.probe_lines)
+      look(line.points(), {"Output"}, "Probe lines");
+    for (const auto &force : model.point_forces)
+      look({force.place}, {"Point forces", force.name}, "Point");
+    for (const auto &name :
+         Utilities::split_string_list(model.output.surface_text, ','))
+      model.probe_surfaces.emplace_back(
+        name,
+        boundary_id_of(name,
+                       space.boundary.names,
+                       model.file.where({"Output"}, "Probe surfaces")));
+  }
+
+#define INSTANTIATE(dim)                              \
+  template void Scene<dim>::check_boundaries() const; \
+  template void Scene<dim>::check_materials() const;  \
+  template void Scene<dim>::check_supports() const;   \
+  template void Scene<dim>::check_mesh() const;       \
+  template void Scene<dim>::check_probes();           \
+  template void Scene<dim>::interpret_probes();
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Signoton
