@@ -298,7 +298,9 @@ namespace Signoton
     const DynamicSums own =
       model.mechanics->dynamic_force(displacement, internal, true, -1.);
     model.mechanics->commit();
-    receipt.stored  = sum<1>({{own.stored}})[0];
+    const auto sums = sum<2>({{own.stored, own.voids}});
+    receipt.stored  = sums[0];
+    receipt.voids   = sums[1];
     receipt.kinetic = kinetic_energy();
     receipt.initial = receipt.stored + receipt.kinetic;
     accelerate(0.);
@@ -377,23 +379,27 @@ namespace Signoton
   void
   Dynamics<dim>::add_statistics(const VectorType &u, const VectorType &v)
   {
-    Line        line   = {{"step", n_steps},
-                          {"time", time},
-                          {"step size", time_step},
-                          {"cells", model.space->mesh.n_global_active_cells()},
-                          {"unknowns", model.space->dof_handler.n_dofs()},
-                          {"kinetic energy", receipt.kinetic},
-                          {"stored energy", receipt.stored},
-                          {"plastic dissipation", receipt.plastic},
-                          {"viscous dissipation", receipt.viscous},
-                          {"shock dissipation", receipt.shock},
-                          {"absorbed energy", receipt.absorbed},
-                          {"lost by transfer", receipt.transfer},
-                          {"lost by time stepping", receipt.time_stepping},
-                          {"external work", receipt.external_work},
-                          {"initial energy", receipt.initial},
-                          {"energy gap", receipt.gap()},
-                          {"unknowns by steps", unknown_steps}};
+    Line line = {{"step", n_steps},
+                 {"time", time},
+                 {"step size", time_step},
+                 {"cells", model.space->mesh.n_global_active_cells()},
+                 {"unknowns", model.space->dof_handler.n_dofs()},
+                 {"kinetic energy", receipt.kinetic},
+                 {"stored energy", receipt.stored},
+                 {"plastic dissipation", receipt.plastic},
+                 {"viscous dissipation", receipt.viscous},
+                 {"shock dissipation", receipt.shock},
+                 {"absorbed energy", receipt.absorbed},
+                 {"lost by transfer", receipt.transfer},
+                 {"lost by time stepping", receipt.time_stepping},
+                 {"external work", receipt.external_work},
+                 {"initial energy", receipt.initial},
+                 {"energy gap", receipt.gap()},
+                 {"unknowns by steps", unknown_steps}};
+    if (std::any_of(model.materials.begin(),
+                    model.materials.end(),
+                    [](const auto &m) { return m.has_cone(); }))
+      line.emplace_back("volume of voids", receipt.voids);
     const char *axes[] = {"momentum x", "momentum y", "momentum z"};
     const auto  p      = momentum();
     for (unsigned int d = 0; d < dim; ++d)

@@ -188,7 +188,7 @@ namespace Signoton
                   external.local_element(i) - external_before.local_element(i));
       }
     const auto sums =
-      this->template sum<10>({{inner,
+      this->template sum<11>({{inner,
                                outer + supported,
                                damped,
                                0.125 * dt * dt * (half_after - before.second),
@@ -197,7 +197,8 @@ namespace Signoton
                                own.dissipated,
                                own.viscous,
                                own.shock,
-                               own.quiet_cells}});
+                               own.quiet_cells,
+                               own.voids}});
     // What the forces did on the way, the material has not quite got. Between
     // the lines of statistics reversible materials are not asked.
     receipt.time_stepping +=
@@ -209,7 +210,8 @@ namespace Signoton
     receipt.plastic += sums[6] - sums[7];
     receipt.viscous += sums[7];
     receipt.shock += sums[8];
-    quiet_share = sums[9] / model.space->mesh.n_global_active_cells();
+    receipt.voids = sums[10];
+    quiet_share   = sums[9] / model.space->mesh.n_global_active_cells();
   }
 
   template class ExplicitDynamics<2>;

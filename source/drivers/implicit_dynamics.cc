@@ -27,8 +27,8 @@ namespace Signoton
   double
   ImplicitDynamics<dim>::shortest_step() const
   {
-    return 1e-3 * (is_automatic ? std::min(stable_step, next_step) :
-                                  model.time_integration.time_step);
+    return 1e-3 *
+           (is_automatic ? stable_step : model.time_integration.time_step);
   }
 
   template <int dim>
@@ -316,15 +316,16 @@ namespace Signoton
         supported += change + path * force;
         gained -= change;
       }
-    const auto sums = this->template sum<9>({{inner,
-                                              outer + supported,
-                                              damped,
-                                              inertia - gained,
-                                              kinetic,
-                                              own.stored,
-                                              own.dissipated,
-                                              own.viscous,
-                                              own.shock}});
+    const auto sums = this->template sum<10>({{inner,
+                                               outer + supported,
+                                               damped,
+                                               inertia - gained,
+                                               kinetic,
+                                               own.stored,
+                                               own.dissipated,
+                                               own.viscous,
+                                               own.shock,
+                                               own.voids}});
     receipt.time_stepping +=
       sums[3] + sums[0] - (sums[5] - receipt.stored) - sums[6] - sums[8];
     receipt.external_work += sums[1];
@@ -334,6 +335,7 @@ namespace Signoton
     receipt.plastic += sums[6] - sums[7];
     receipt.viscous += sums[7];
     receipt.shock += sums[8];
+    receipt.voids = sums[9];
   }
 
   template class ImplicitDynamics<2>;

@@ -79,6 +79,7 @@ namespace Signoton
     rest_strain.resize(n_batches * n_points * n_tensor_entries);
     rest_stress.resize(rest_strain.size());
     rest_energy.resize(n_batches);
+    rest_voids.resize(n_batches);
     Cell       cell(data, mesh_constraints);
     double     largest = 0.; // of the differences from given stresses
     Point<dim> place;
@@ -88,7 +89,7 @@ namespace Signoton
         const unsigned int n_lanes =
           data.n_active_entries_per_cell_batch(batch);
         cell.reinit(batch);
-        rest_energy[batch] = Number(0.);
+        rest_energy[batch] = rest_voids[batch] = Number(0.);
         for (unsigned int q = 0; q < n_points; ++q)
           {
             std::array<Point<dim>, Number::size()> points;
@@ -116,6 +117,9 @@ namespace Signoton
               },
               laws[material_of_batch[batch]]);
             rest_energy[batch] += weight(cell, q) * response.stored_energy;
+            rest_voids[batch] +=
+              weight(cell, q) *
+              std::max(trace(response.contact_strain), Number(0.));
             const std::size_t first =
               (std::size_t(batch) * n_points + q) * n_tensor_entries;
             for (unsigned int e = 0; e < n_tensor_entries; ++e)
@@ -224,7 +228,7 @@ namespace Signoton
       {
         const unsigned int n_lanes =
           data.n_active_entries_per_cell_batch(batch);
-        Number stored(0.), dissipated(0.), viscous(0.), shocked(0.);
+        Number stored(0.), voids(0.), dissipated(0.), viscous(0.), shocked(0.);
         cell.reinit(batch);
         cell.read_dof_values(displacement);
         if (is_quiet(cell))
@@ -234,7 +238,10 @@ namespace Signoton
                         history.width(batch) * n_points,
                         history.trial(batch, 0));
             if (at_rest)
-              stored = rest_energy[batch];
+              {
+                stored = rest_energy[batch];
+                voids  = rest_voids[batch];
+              }
             sums.quiet_cells += n_lanes;
           }
         else
@@ -254,6 +261,11 @@ namespace Signoton
                 if constexpr ((request & Rheology::energies) != 0)
                   {
                     stored += w * response.stored_energy;
+                    voids +=
+                      w * std::max(trace(response.contact_strain), Number(0.));
+                  }
+                if constexpr (request != Rheology::stress)
+                  {
                     dissipated += w * response.dissipation;
                     viscous += w * response.viscous_dissipation;
                   }
@@ -279,6 +291,7 @@ namespace Signoton
         for (unsigned int i = 0; i < n_lanes; ++i)
           {
             sums.stored += stored[i];
+            sums.voids += voids[i];
             sums.dissipated += dissipated[i];
             sums.viscous += viscous[i];
             sums.shock += shocked[i];
@@ -335,6 +348,8 @@ namespace Signoton
     quiet_displacement = quiet;
     return with_energies ?
              dynamic_sweep<Rheology::energies>(displacement, force) :
+           history_width() > 0 ?
+             dynamic_sweep<Rheology::dissipation>(displacement, force) :
              dynamic_sweep<Rheology::stress>(displacement, force);
   }
 

@@ -279,8 +279,8 @@ namespace Signoton
     std::vector<std::array<Number, n_tangent_entries<Embedding>(true)>>
       elastic_tangents;
     // Empty unless there is an initial state: tensors by batch and point, and
-    // by batch the energy in J.
-    AlignedVector<Number> rest_strain, rest_stress, rest_energy;
+    // by batch the energy in J and the voids in m^3.
+    AlignedVector<Number> rest_strain, rest_stress, rest_energy, rest_voids;
     VectorType            rest_force;
     // Empty unless there is shock viscosity: the size of a cell in m, and the
     // dilatation before the step at each point.

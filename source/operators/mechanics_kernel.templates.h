@@ -441,7 +441,8 @@ namespace Signoton
   {
     return {history.memory_consumption(),
             tangents.size() * sizeof(Number),
-            (rest_strain.size() + rest_stress.size() + rest_energy.size()) *
+            (rest_strain.size() + rest_stress.size() + rest_energy.size() +
+             rest_voids.size()) *
               sizeof(Number),
             (cell_size.size() + dilatation.size()) * sizeof(Number),
             data.memory_consumption()};

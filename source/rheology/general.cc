@@ -46,11 +46,14 @@ namespace Signoton::Rheology
           set_lane(response.tangent, i, from_mandel(step.tangent));
         if constexpr ((request & potential) != 0)
           set_lane(response.potential, i, W);
+        if constexpr ((request & (energies | dissipation)) != 0)
+          {
+            set_lane(response.dissipation, i, step.dissipated);
+            set_lane(response.viscous_dissipation, i, step.viscous);
+          }
         if constexpr ((request & energies) != 0)
           {
             set_lane(response.stored_energy, i, step.stored);
-            set_lane(response.dissipation, i, step.dissipated);
-            set_lane(response.viscous_dissipation, i, step.viscous);
             set_lane(response.contact_strain,
                      i,
                      from_mandel(network->contact_strain()));
@@ -72,6 +75,7 @@ namespace Signoton::Rheology
   SIGNOTON_INSTANTIATE(potential, Number)           \
   SIGNOTON_INSTANTIATE(potential | tangent, Number) \
   SIGNOTON_INSTANTIATE(energies, Number)            \
+  SIGNOTON_INSTANTIATE(dissipation, Number)         \
   SIGNOTON_INSTANTIATE(all, Number)
   SIGNOTON_INSTANTIATE_REQUESTS(double)
   SIGNOTON_INSTANTIATE_REQUESTS(VectorizedArray<double>)

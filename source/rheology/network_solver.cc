@@ -64,16 +64,15 @@ namespace Signoton::Rheology
         const double    penalty = penalized ? leaf.penalty : 1.;
         const Tensor2<> trial =
           from_mandel(scale(leaf.root[0], leaf.root[1], leaf.wave));
-        Projection<double> projection;
+        Projection<double, with_slope> projection;
         projection.hardening =
           node.hardening < 0 ? 0. : accepted_scalars[node.hardening];
         std::visit(
           [&](const auto &set) {
-            set.template project<with_slope>(
-              trial,
-              Moduli{penalty * node.stiffness.bulk,
-                     penalty * node.stiffness.shear},
-              projection);
+            set.project(trial,
+                        Moduli{penalty * node.stiffness.bulk,
+                               penalty * node.stiffness.shear},
+                        projection);
           },
           leaf.set);
         leaf.admissible = scale(1. / leaf.root[0],

@@ -60,9 +60,10 @@ namespace Signoton
       std::all_of(materials.begin(), materials.end(), [](const auto &m) {
         return m.has_potential();
       });
-    const bool gravity = model.gravity && !heavy.empty();
-    const bool adaptive =
-      model.refinement.cycles(1) > 0 || model.refinement.is_used_later();
+    const bool gravity  = model.gravity && !heavy.empty();
+    const bool adaptive = model.is_dynamic ? model.wave_refinement.is_on() :
+                                             model.refinement.cycles(1) > 0 ||
+                                               model.refinement.is_used_later();
 
     std::vector<std::string> with_dashpots;
     for (const auto &condition : model.conditions)
@@ -105,7 +106,9 @@ namespace Signoton
              0},
             {"adaptive mesh",
              adaptive,
-             adaptive ? "Refinement / Cycles" : "no Refinement / Cycles",
+             std::string(adaptive ? "" : "no ") +
+               (model.is_dynamic ? "Refinement / Follow waves" :
+                                   "Refinement / Cycles"),
              0},
             {"inertia",
              model.is_dynamic,
@@ -184,9 +187,13 @@ namespace Signoton
         << "\nMemory forecast in MB, besides some 200 MB of libraries a rank:\n"
            "                          points    matrix    solver   vectors\n";
     forecast("at the start", 1.);
-    if (model.refinement.cycles(1) > 0 || model.refinement.is_used_later())
-      forecast("at Maximum unknowns",
-               std::max(1., model.refinement.unknowns_limit() / n));
+    const double limit = model.is_dynamic ?
+                           model.wave_refinement.unknowns_limit() :
+                           model.refinement.unknowns_limit();
+    if (model.is_dynamic ?
+          model.wave_refinement.is_on() :
+          model.refinement.cycles(1) > 0 || model.refinement.is_used_later())
+      forecast("at Maximum unknowns", std::max(1., limit / n));
     return out.str();
   }
 

@@ -167,6 +167,8 @@ namespace Signoton
           {
             SolverGMRES<VectorType>::AdditionalData options;
             options.max_n_tmp_vectors = 80;
+            // the residual that is compared is then that of the equations
+            options.right_preconditioning = true;
             SolverGMRES<VectorType>(control, options)
               .solve(*matrix, solution, rhs, *amg);
           }

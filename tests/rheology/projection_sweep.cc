@@ -384,11 +384,11 @@ namespace
   }
 
   template <typename Set>
-  Projection<double>
+  Projection<double, false>
   project(const Set &set, const Tensor2<> &t, const Moduli &moduli)
   {
-    Projection<double> projection;
-    set.template project<false>(t, moduli, projection);
+    Projection<double, false> projection;
+    set.project(t, moduli, projection);
     return projection;
   }
 
@@ -481,7 +481,7 @@ namespace
                       t,
                       trial_stress(candidate, moduli, scale, random));
 
-        const Projection<double> projection = project(candidate.set, t, moduli);
+        const auto projection = project(candidate.set, t, moduli);
         regions.add(projection.region);
 
         // The apex is subtracted from t, so its size counts in round-off.

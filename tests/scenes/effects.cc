@@ -69,6 +69,75 @@ namespace
            with_tangent.tangent == tangent * n_points &&
            without_tangent.tangent == 0;
   }
+
+  /** The same for what only dynamics has. */
+  bool
+  check_dynamics(const std::string &what,
+                 const std::string &initial_strain,
+                 const std::string &viscosity,
+                 const std::string &scheme)
+  {
+    SceneFile file = SceneFile::parse(R"(
+      set Analysis = dynamics
+      subsection Materials
+        subsection m
+          set Bulk modulus = 1
+          set Shear modulus = 0.6
+          set Density = 1
+          set Rheology = elastic granular
+          set Admissible set = mises schleicher
+          set Friction parameter = 0.5
+        end
+      end)",
+                                      "test");
+    file.set({"Time integration"}, "Scheme", scheme);
+    if (!initial_strain.empty())
+      file.set({"Initial state"}, "Strain", initial_strain);
+    for (const char *kind : {"Linear", "Quadratic"})
+      file.set({"Time integration"},
+               std::string(kind) + " shock viscosity",
+               viscosity);
+    Scene<2> scene(MPI_COMM_SELF, file);
+    auto    &model = scene.model;
+    scene.build();
+    model.mechanics->set_shock_viscosity(
+      model.time_integration.shock_viscosity);
+    model.mechanics->reinit();
+    model.mechanics->set_time_step(1.);
+    VectorType u, force;
+    model.mechanics->initialize_vector(u);
+    model.mechanics->initialize_vector(force);
+    if (scheme == "implicit")
+      model.mechanics->internal_force(u, force, true);
+    model.mechanics->dynamic_force(u, force, false, -1.);
+
+    const auto         memory = model.mechanics->memory();
+    const unsigned int n_points =
+      model.space->mesh.n_active_cells() * model.space->quadrature.size();
+    std::cout << "dynamics, " << what << "\n";
+    bool ok = true;
+    for (const auto &effect : requirements(model))
+      {
+        if (effect.on)
+          std::cout << "  " << effect.name << ": " << effect.bytes_per_point
+                    << " bytes a point\n";
+        const double billed = effect.bytes_per_point * n_points;
+        const auto   is     = [&](const double bytes) {
+          // a few numbers a cell are not on the bill
+          ok &= effect.on ? bytes >= billed && bytes <= 1.6 * billed :
+                                  !(bytes > 0.);
+        };
+        if (effect.name == "initial state")
+          is(memory.initial_state);
+        if (effect.name == "shock viscosity")
+          is(memory.shock_viscosity);
+        if (effect.name == "consistent tangent")
+          is(memory.tangent);
+        if (effect.name == "history")
+          is(memory.history);
+      }
+    return ok;
+  }
 } // namespace
 
 int
@@ -83,6 +152,10 @@ main(int argc, char **argv)
               "\nset Admissible set = von mises\nset Shear strength = 1"
               "\nset Isotropic hardening modulus = 0.1");
   ok &= check("elastic plastic granular", cone + "\nset Shear strength = 1");
+  ok &= check_dynamics("bare", "", "0", "explicit");
+  ok &= check_dynamics("loosened", "0.01; 0; 0; 0", "0", "explicit");
+  ok &= check_dynamics("with shock viscosity", "", "1", "explicit");
+  ok &= check_dynamics("implicit, all", "0.01; 0; 0; 0", "1", "implicit");
   std::cout << (ok ? "ok" : "FAILED") << std::endl;
   return ok ? 0 : 1;
 }

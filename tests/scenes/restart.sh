@@ -40,7 +40,7 @@ paste -d '\n' <(head -1 "$dir/whole/statistics.csv") \
     NR == 2 { for (i = 1; i <= NF; ++i) whole[i] = $i; n = NF }
     NR == 3 {
       for (i = 1; i <= n; ++i) {
-        if (name[i] ~ /iterations|seconds|memory|quiet|residual|drift|estimated|regularization/)
+        if (name[i] ~ /iterations|seconds|memory|quiet|residual|drift|estimated|regularization|gap/)
           continue
         scale = whole[i] < 0 ? -whole[i] : whole[i]
         if (scale < 1e-7) scale = 1e-7

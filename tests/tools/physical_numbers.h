@@ -60,10 +60,17 @@ namespace PhysicalNumbers
   inline std::string
   group(const std::string &name)
   {
+    if (name == "energy gap") // relative already
+      return "share of";
     if (name.find("energy") != std::string::npos || name == "external work" ||
-        name == "transfer drift")
+        name == "transfer drift" || name.rfind("lost by", 0) == 0)
       return "energy";
-    for (const char *prefix : {"reaction", "displacement", "velocity", "share of"})
+    for (const char *prefix : {"reaction",
+                               "displacement",
+                               "velocity",
+                               "stress",
+                               "traction",
+                               "share of"})
       if (name.rfind(prefix, 0) == 0)
         return prefix;
     return name;
@@ -72,8 +79,12 @@ namespace PhysicalNumbers
   inline bool
   is_physical(const std::string &name)
   {
-    for (const char *word :
-         {"iterations", "seconds", "residual", "memory", "regularization", "quiet"})
+    for (const char *word : {"iterations",
+                             "seconds",
+                             "residual",
+                             "memory",
+                             "regularization",
+                             "quiet"})
       if (name.find(word) != std::string::npos)
         return false;
     return true;

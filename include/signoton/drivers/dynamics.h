@@ -101,7 +101,7 @@ namespace Signoton
     bool
     needs_energies() const
     {
-      return remembers || is_reported() || is_line_due() || is_mesh_due();
+      return is_reported() || is_line_due() || is_mesh_due();
     }
 
     Model<dim>               &model;

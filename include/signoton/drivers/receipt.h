@@ -31,6 +31,7 @@ namespace Signoton
     double time_stepping = 0.; ///< lost by the finite steps
     double external_work = 0.; ///< of loads and moving boundaries
     double initial       = 0.; ///< kinetic and stored at the start
+    double voids         = 0.; ///< volume of open contacts at present, in m^3
 
     /** What is missing, relative to the largest energy. */
     double

@@ -33,6 +33,7 @@ namespace Signoton
   struct DynamicSums
   {
     double stored      = 0.; ///< in J, if asked for
+    double voids       = 0.; ///< in m^3, if energies are asked for
     double dissipated  = 0.; ///< by hinges and dampers in the step, in J
     double viscous     = 0.; ///< of that, by dampers
     double shock       = 0.; ///< by the shock viscosity in the step, in J
@@ -150,6 +151,7 @@ namespace Signoton
      * pressure $q=\rho h|\dot\theta|(c_l c_p+c_q h|\dot\theta|)$ (von Neumann
      * and Richtmyer 1950, Landshoff 1955) with the rate since the sweep before,
      * the size h of the cell by the degree, and the speed of the closed medium.
+     * @param with_energies if not, only what is dissipated is summed up
      * @param quiet cells are skipped, as being at rest, if no unknown of theirs
      *   exceeds this displacement in m; none are if it is negative
      */

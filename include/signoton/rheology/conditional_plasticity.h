@@ -86,11 +86,10 @@ namespace Signoton::Rheology
       if constexpr (request & potential)
         response.potential = response.stored_energy;
       if constexpr (request & energies)
-        {
-          response.plastic_strain = plastic.plastic_strain;
-          response.dissipation =
-            response.stress * (trial.tensors[0] - accepted.tensors[0]);
-        }
+        response.plastic_strain = plastic.plastic_strain;
+      if constexpr (request & (energies | dissipation))
+        response.dissipation =
+          response.stress * (trial.tensors[0] - accepted.tensors[0]);
     }
 
     const Moduli &

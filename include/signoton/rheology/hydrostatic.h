@@ -29,11 +29,11 @@ namespace Signoton::Rheology
     {}
 
     /** See Projection. */
-    template <bool with_tangent, typename Number>
+    template <typename Number, bool with_tangent>
     void
-    project(const Tensor2<Number> &trial,
-            const Moduli          &moduli,
-            Projection<Number>    &result) const
+    project(const Tensor2<Number>            &trial,
+            const Moduli                     &moduli,
+            Projection<Number, with_tangent> &result) const
     {
       const Number p = pressure(trial);
       const Number new_p =

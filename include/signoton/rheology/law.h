@@ -12,11 +12,12 @@ namespace Signoton::Rheology
   /** What a caller wants of a material point; nothing else is computed. */
   enum Request : unsigned int
   {
-    stress    = 0, ///< always delivered
-    potential = 1, ///< the incremental potential, for line searches
-    tangent   = 2, ///< the consistent tangent
-    energies  = 4, ///< stored and dissipated energy and internal strains
-    all       = 7
+    stress      = 0, ///< always delivered
+    potential   = 1, ///< the incremental potential, for line searches
+    tangent     = 2, ///< the consistent tangent
+    energies    = 4, ///< stored and dissipated energy and internal strains
+    dissipation = 8, ///< dissipated energy alone; energies include it
+    all         = 7
   };
 
   /** What a law delivers at a point; members not requested stay untouched. */
@@ -70,12 +71,12 @@ namespace Signoton::Rheology
         response.potential = 0.5 * (response.stress * strain);
       if constexpr (request & energies)
         {
-          response.stored_energy       = 0.5 * (response.stress * strain);
-          response.dissipation         = 0.;
-          response.viscous_dissipation = 0.;
-          response.contact_strain      = Tensor2<Number>();
-          response.plastic_strain      = Tensor2<Number>();
+          response.stored_energy  = 0.5 * (response.stress * strain);
+          response.contact_strain = Tensor2<Number>();
+          response.plastic_strain = Tensor2<Number>();
         }
+      if constexpr (request & (energies | dissipation))
+        response.dissipation = response.viscous_dissipation = Number(0.);
     }
 
     const Moduli &
@@ -149,13 +150,16 @@ namespace Signoton::Rheology
     {
       const Tensor2<Number> s = spring.stress(strain);
       Tensor2<Number>       t = s;
-      Projection<Number>    projection;
       if constexpr (n_tensors > 0)
         t -= metric.stress(accepted.tensors[0]);
+      if constexpr ((request & (potential | energies)) == 0)
+        if (respond_inside<request>(s, t, accepted, trial, response))
+          return;
+
+      Projection<Number, (request & tangent) != 0> projection;
       if constexpr (n_scalars > 0)
         projection.hardening = accepted.scalars[0];
-
-      set.template project<(request & tangent) != 0>(t, metric, projection);
+      set.project(t, metric, projection);
 
       response.stress = to_spring(s) + to_set(projection.stress);
       response.region = projection.region;
@@ -178,7 +182,17 @@ namespace Signoton::Rheology
                                 t - 0.5 * projection.stress) +
           projection.potential_correction;
       if constexpr (request & energies)
-        account(s, projection, accepted, trial, response);
+        account(s, projection.stress, trial, response);
+      if constexpr (request & (energies | dissipation))
+        {
+          response.dissipation = response.viscous_dissipation = Number(0.);
+          if constexpr (n_tensors > 0)
+            response.dissipation =
+              projection.stress * (trial.tensors[0] - accepted.tensors[0]);
+          if constexpr (n_scalars > 0)
+            response.dissipation -= set.hardening_stress(trial.scalars[0]) *
+                                    (trial.scalars[0] - accepted.scalars[0]);
+        }
     }
 
     const Moduli &
@@ -188,6 +202,33 @@ namespace Signoton::Rheology
     }
 
   private:
+    /** The answer where no lane gives way, which most points of a body get:
+     *  that of the spring, short of the plastic strain. False elsewhere. */
+    template <unsigned int request, typename Number>
+    bool
+    respond_inside(const Tensor2<Number>       &s,
+                   const Tensor2<Number>       &t,
+                   const History<This, Number> &accepted,
+                   History<This, Number>       &trial,
+                   Response<Number>            &response) const
+    {
+      Number plastic_shear(0.);
+      if constexpr (n_scalars > 0)
+        plastic_shear = accepted.scalars[0];
+      if (!set.contains(t, plastic_shear))
+        return false;
+      response.stress = s;
+      if constexpr (n_tensors > 0)
+        response.stress -= spring.stress(accepted.tensors[0]);
+      response.region = index(Region::interior);
+      trial           = accepted;
+      if constexpr (request & tangent)
+        response.tangent = spring.tensor<Number>();
+      if constexpr (request & dissipation)
+        response.dissipation = response.viscous_dissipation = Number(0.);
+      return true;
+    }
+
     template <typename Number>
     Tensor2<Number>
     plastic_part(const Tensor2<Number> &q, const Number &region) const
@@ -199,38 +240,27 @@ namespace Signoton::Rheology
     }
 
     /** Stored energy: both springs, isotropic hardening, and the work against
-     *  the cohesion of an open contact. Dissipation: the end-of-step stress on
-     *  the hinge, less what hardens it, times the slip of the step. So the sum
-     *  of stored energy and dissipation grows by exactly
-     *  $W_n(\varepsilon_{n+1})-W_n(\varepsilon_n)$. */
+     *  the cohesion of an open contact. With the dissipation, the end-of-step
+     *  stress on the hinge, less what hardens it, times the slip of the step,
+     *  it grows by exactly $W_n(\varepsilon_{n+1})-W_n(\varepsilon_n)$.
+     *  @param projected $\pi$ */
     template <typename Number>
     void
     account(const Tensor2<Number>       &s,
-            const Projection<Number>    &projection,
-            const History<This, Number> &accepted,
+            const Tensor2<Number>       &projected,
             const History<This, Number> &trial,
             Response<Number>            &response) const
     {
-      const Tensor2<Number> x = metric.strain(s - projection.stress);
+      const Tensor2<Number> x = metric.strain(s - projected);
       response.stored_energy =
         0.5 * spring.energy_product(response.stress, response.stress) +
         0.5 * (binder.stress(x) * x);
-      response.dissipation         = 0.;
-      response.viscous_dissipation = 0.;
-      response.contact_strain      = Tensor2<Number>();
-      response.plastic_strain      = Tensor2<Number>();
+      response.contact_strain = Tensor2<Number>();
+      response.plastic_strain = Tensor2<Number>();
       if constexpr (n_tensors > 0)
-        {
-          response.plastic_strain = trial.tensors[0];
-          response.dissipation =
-            projection.stress * (trial.tensors[0] - accepted.tensors[0]);
-        }
+        response.plastic_strain = trial.tensors[0];
       if constexpr (n_scalars > 0)
-        {
-          response.stored_energy += set.hardening_energy(trial.scalars[0]);
-          response.dissipation -= set.hardening_stress(trial.scalars[0]) *
-                                  (trial.scalars[0] - accepted.scalars[0]);
-        }
+        response.stored_energy += set.hardening_energy(trial.scalars[0]);
       if constexpr (memory != Memory::all)
         {
           response.contact_strain = x;

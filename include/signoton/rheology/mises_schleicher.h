@@ -51,12 +51,25 @@ namespace Signoton::Rheology
       , shear_strength(shear_strength)
     {}
 
+    /** Whether all lanes are inside. */
+    template <typename Number>
+    bool
+    contains(const Tensor2<Number> &t, const Number &) const
+    {
+      const Number strength = std::min(Number(friction * (pressure(t) + apex)),
+                                       Number(shear_strength));
+      const Tensor2<Number> deviator = deviatoric_part(t);
+      return all_not_greater(Number(0.), strength) &&
+             all_not_greater(Number(0.5 * (deviator * deviator)),
+                             Number(strength * strength));
+    }
+
     /** See Projection. */
-    template <bool with_tangent, typename Number>
+    template <typename Number, bool with_tangent>
     void
-    project(const Tensor2<Number> &trial,
-            const Moduli          &moduli,
-            Projection<Number>    &result) const
+    project(const Tensor2<Number>            &trial,
+            const Moduli                     &moduli,
+            Projection<Number, with_tangent> &result) const
     {
       const Number          P        = pressure(trial) + apex;
       const Tensor2<Number> deviator = deviatoric_part(trial);

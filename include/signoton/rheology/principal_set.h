@@ -60,25 +60,35 @@ namespace Signoton::Rheology
     }
 
     /** See Projection. */
-    template <bool with_tangent, typename Number>
+    template <typename Number, bool with_tangent>
     void
-    project(const Tensor2<Number> &trial,
-            const Moduli          &moduli,
-            Projection<Number>    &result) const
+    project(const Tensor2<Number>            &trial,
+            const Moduli                     &moduli,
+            Projection<Number, with_tangent> &result) const
     {
       result.potential_correction = 0.;
       for (unsigned int i = 0; i < n_lanes<Number>(); ++i)
         {
-          const Tensor2<> t = lane(trial, i);
-          Tensor2<>       stress;
-          Tensor4<>       tangent;
-          const Region    region =
-            project_lane<with_tangent>(t, moduli, stress, tangent);
+          const Tensor2<>                         t = lane(trial, i);
+          Tensor2<>                               stress;
+          ProjectionTangent<double, with_tangent> derivative;
+          const Region region = project_lane(t, moduli, stress, derivative);
           set_lane(result.stress, i, stress);
           set_lane(result.region, i, index(region));
           if constexpr (with_tangent)
-            set_lane(result.tangent, i, tangent);
+            set_lane(result.tangent, i, derivative.tangent);
         }
+    }
+
+    /** Whether all lanes are inside, as far as can be told cheaply. */
+    template <typename Number>
+    bool
+    contains(const Tensor2<Number> &t, const Number &) const
+    {
+      for (unsigned int i = 0; i < n_lanes<Number>(); ++i)
+        if (!is_clearly_inside(lane(t, i)))
+          return false;
+      return true;
     }
 
     bool
@@ -107,16 +117,16 @@ namespace Signoton::Rheology
     /** The part of project() for one point. */
     template <bool with_tangent>
     Region
-    project_lane(const Tensor2<> &trial,
-                 const Moduli    &moduli,
-                 Tensor2<>       &stress,
-                 Tensor4<>       &tangent) const
+    project_lane(const Tensor2<>                         &trial,
+                 const Moduli                            &moduli,
+                 Tensor2<>                               &stress,
+                 ProjectionTangent<double, with_tangent> &derivative) const
     {
       if (is_clearly_inside(trial))
         {
           stress = trial;
           if constexpr (with_tangent)
-            tangent = moduli.tensor<double>();
+            derivative.tangent = moduli.tensor<double>();
           return Region::interior;
         }
       const SpectralDecomposition spectrum(trial);
@@ -129,9 +139,9 @@ namespace Signoton::Rheology
         value += apex;
       stress = region == Region::interior ? trial : spectrum.compose(x);
       if constexpr (with_tangent)
-        tangent = region == Region::interior ?
-                    moduli.tensor<double>() :
-                    spectrum.tangent(x, J_E, moduli.shear);
+        derivative.tangent = region == Region::interior ?
+                               moduli.tensor<double>() :
+                               spectrum.tangent(x, J_E, moduli.shear);
       return region;
     }
 
@@ -141,10 +151,11 @@ namespace Signoton::Rheology
     bool
     is_clearly_inside(const Tensor2<> &trial) const
     {
-      const double mean = trace(trial) / 3. - apex;
-      const double radius =
-        2. / std::sqrt(3.) * shear_intensity(deviatoric_part(trial));
-      return (1. - m) * mean + (1. + m) * radius <= bound;
+      const double room = bound - (1. - m) * (trace(trial) * (1. / 3.) - apex);
+      const Tensor2<> deviator = deviatoric_part(trial);
+      return room >= 0. &&
+             (2. / 3.) * (1. + m) * (1. + m) * (deviator * deviator) <=
+               room * room;
     }
 
     /** The projection of principal values $y$, with $x$ and $JE$. */
@@ -233,14 +244,15 @@ namespace Signoton::Rheology
     static constexpr bool hardens = false;
 
     /** See Projection. */
-    template <bool with_tangent, typename Number>
+    template <typename Number, bool with_tangent>
     void
-    project(const Tensor2<Number> &trial,
-            const Moduli          &moduli,
-            Projection<Number>    &result) const
+    project(const Tensor2<Number>            &trial,
+            const Moduli                     &moduli,
+            Projection<Number, with_tangent> &result) const
     {
-      PrincipalSet::no_tension(0.).project<with_tangent>(
-        Tensor2<Number>(-trial), moduli, result);
+      PrincipalSet::no_tension(0.).project(Tensor2<Number>(-trial),
+                                           moduli,
+                                           result);
       result.stress *= -1.;
     }
 

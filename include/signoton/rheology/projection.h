@@ -40,17 +40,28 @@ namespace Signoton::Rheology
     return static_cast<unsigned int>(region);
   }
 
+  /** The derivative in a Projection, if it is asked for: to set up tensors that
+   *  nobody reads costs as much as the rest. */
+  template <typename Number, bool with_tangent>
+  struct ProjectionTangent
+  {
+    /** $d\pi/de$ with $t = E_c:e$; symmetric, between 0 and $E_c$. */
+    Tensor4<Number> tangent;
+  };
+
+  template <typename Number>
+  struct ProjectionTangent<Number, false>
+  {};
+
   /**
    * The result of projecting a trial stress $t$ onto a convex set of stresses
    * in the energy norm of moduli $(k_c,\mu_c)$.
    */
-  template <typename Number>
-  struct Projection
+  template <typename Number, bool with_tangent>
+  struct Projection : ProjectionTangent<Number, with_tangent>
   {
     /** The nearest admissible stress $\pi$. */
     Tensor2<Number> stress;
-    /** $d\pi/de$ with $t = E_c:e$; symmetric, between 0 and $E_c$. */
-    Tensor4<Number> tangent;
     /** Region of every lane, see index(). */
     Number region;
     /** Accumulated plastic shear: accepted value in, new value out; only

@@ -30,12 +30,26 @@ namespace Signoton::Rheology
       , hardening_modulus(isotropic_hardening ? hardening_modulus : 0.)
     {}
 
+    /** Whether all lanes are inside.
+     *  @param plastic_shear accumulated so far; only sets that harden look */
+    template <typename Number>
+    bool
+    contains(const Tensor2<Number> &t, const Number &plastic_shear) const
+    {
+      Number strength = shear_strength;
+      if constexpr (hardens)
+        strength += hardening_stress(plastic_shear);
+      const Tensor2<Number> deviator = deviatoric_part(t);
+      return all_not_greater(Number(0.5 * (deviator * deviator)),
+                             Number(strength * strength));
+    }
+
     /** See Projection. */
-    template <bool with_tangent, typename Number>
+    template <typename Number, bool with_tangent>
     void
-    project(const Tensor2<Number> &trial,
-            const Moduli          &moduli,
-            Projection<Number>    &result) const
+    project(const Tensor2<Number>            &trial,
+            const Moduli                     &moduli,
+            Projection<Number, with_tangent> &result) const
     {
       const Tensor2<Number> deviator = deviatoric_part(trial);
       const Number          tau      = shear_intensity(deviator);
