@@ -349,7 +349,7 @@ namespace Signoton
             "set output 'line-" +
             std::to_string(l + 1) +
             ".png'\nset datafile separator ','\n"
-            "set xlabel 'distance (m)'\nset ylabel 't (s)' offset 2\n"
+            "set xlabel 'distance (m)'\nset ylabel 't (s)' offset 1\n"
             "set palette defined (-1 '#2166ac', 0 '#f7f7f7', 1 '#b2182b')\n"
             "set pm3d map corners2color c1\n"
             "set autoscale xfix\nset autoscale yfix\n"
