@@ -58,9 +58,9 @@ namespace Signoton
                       "refinement'");
     if (follow && coarsen_threshold > 0.5 * refine_threshold)
       throw UserError(file.where({"Refinement"}, "Coarsen threshold"),
-                      Utilities::to_string(coarsen_threshold),
+                      file.value({"Refinement"}, "Coarsen threshold", "0.02"),
                       "at most half of 'Refine threshold', here " +
-                        Utilities::to_string(refine_threshold),
+                        file.value({"Refinement"}, "Refine threshold", "0.1"),
                       "or cells are coarsened and refined in turns");
   }
 

@@ -187,31 +187,13 @@ namespace Signoton
           path * (internal.local_element(i) + old_internal.local_element(i) -
                   external.local_element(i) - external_before.local_element(i));
       }
-    const auto sums =
-      this->template sum<11>({{inner,
-                               outer + supported,
-                               damped,
-                               0.125 * dt * dt * (half_after - before.second),
-                               0.5 * kinetic,
-                               own.stored,
-                               own.dissipated,
-                               own.viscous,
-                               own.shock,
-                               own.quiet_cells,
-                               own.voids}});
-    // What the forces did on the way, the material has not quite got. Between
-    // the lines of statistics reversible materials are not asked.
-    receipt.time_stepping +=
-      sums[0] - sums[3] - (sums[5] - receipt.stored) - sums[6] - sums[8];
-    receipt.external_work += sums[1];
-    receipt.absorbed += sums[2];
-    receipt.kinetic = sums[4];
-    receipt.stored  = sums[5];
-    receipt.plastic += sums[6] - sums[7];
-    receipt.viscous += sums[7];
-    receipt.shock += sums[8];
-    receipt.voids = sums[10];
-    quiet_share   = sums[9] / model.space->mesh.n_global_active_cells();
+    const DynamicSums sums =
+      this->enter_step(inner - 0.125 * dt * dt * (half_after - before.second),
+                       outer + supported,
+                       damped,
+                       0.5 * kinetic,
+                       own);
+    quiet_share = sums.quiet_cells / model.space->mesh.n_global_active_cells();
   }
 
   template class ExplicitDynamics<2>;

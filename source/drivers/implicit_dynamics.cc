@@ -316,26 +316,8 @@ namespace Signoton
         supported += change + path * force;
         gained -= change;
       }
-    const auto sums = this->template sum<10>({{inner,
-                                               outer + supported,
-                                               damped,
-                                               inertia - gained,
-                                               kinetic,
-                                               own.stored,
-                                               own.dissipated,
-                                               own.viscous,
-                                               own.shock,
-                                               own.voids}});
-    receipt.time_stepping +=
-      sums[3] + sums[0] - (sums[5] - receipt.stored) - sums[6] - sums[8];
-    receipt.external_work += sums[1];
-    receipt.absorbed += sums[2];
-    receipt.kinetic = sums[4];
-    receipt.stored  = sums[5];
-    receipt.plastic += sums[6] - sums[7];
-    receipt.viscous += sums[7];
-    receipt.shock += sums[8];
-    receipt.voids = sums[9];
+    this->enter_step(
+      inner + inertia - gained, outer + supported, damped, kinetic, own);
   }
 
   template class ImplicitDynamics<2>;

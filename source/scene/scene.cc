@@ -40,11 +40,14 @@ namespace Signoton
                       file.has({section}, key);
       if (!is_there)
         return;
-      warnings.push_back(file.where({section}, key) +
-                         " has no effect with Analysis = " + analysis +
-                         (model.is_dynamic ?
-                            ", Scheme = " + model.time_integration.scheme :
-                            std::string()));
+      const auto keys = file.keys({section});
+      warnings.push_back(
+        file.where({section}, !key.empty() || keys.empty() ? key : keys[0]) +
+        (key.empty() ? " and the rest of '" + section + "'" : "") +
+        " has no effect with Analysis = " +
+        (model.is_dynamic ?
+           "dynamics, Scheme = " + model.time_integration.scheme :
+           "statics"));
       file.remove({section}, key);
     };
     if (!model.is_dynamic)

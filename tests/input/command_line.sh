@@ -47,6 +47,14 @@ expect 0 'The scene is valid' --validate template.prm
 expect 0 'Statistics by step' template.prm
 expect 0 'The scene is valid' --validate "$scene" --set 'Discretization/Degree=1'
 expect 2 'Materials' --validate "$scene" --set 'Materials/sand/Bulk modulus=-1'
+piston=$source/prm/signoton_piston.prm
+expect 0 'central differences' --explain "$piston"
+expect 0 'generalized alpha' --explain "$piston" \
+  --set 'Time integration/Scheme=implicit'
+expect 0 "'Newton' has no effect with Analysis = dynamics, Scheme = explicit" \
+  --validate "$piston" --set 'Newton/Tolerance=1e-9'
+expect 0 'The scene is valid' --validate "$piston" \
+  --set 'Newton/Tolerance=1e-9' --set 'Time integration/Scheme=implicit'
 "$signoton" --template point >point_template.prm
 expect 0 'point.csv' point point_template.prm
 expect 2 "'signoton point " "$source/prm/point/triaxial.prm"

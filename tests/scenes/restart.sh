@@ -40,10 +40,11 @@ paste -d '\n' <(head -1 "$dir/whole/statistics.csv") \
     NR == 2 { for (i = 1; i <= NF; ++i) whole[i] = $i; n = NF }
     NR == 3 {
       for (i = 1; i <= n; ++i) {
-        if (name[i] ~ /iterations|seconds|memory|quiet|residual|drift|estimated|regularization|gap/)
+        if (name[i] ~ /iterations|seconds|memory|quiet|residual|drift|estimated|regularization/)
           continue
         scale = whole[i] < 0 ? -whole[i] : whole[i]
         if (scale < 1e-7) scale = 1e-7
+        if (name[i] ~ /gap/) scale = 1 # relative already
         d = ($i - whole[i]) / scale
         if (d < 0) d = -d
         ++compared

@@ -16,13 +16,6 @@ namespace
     return SceneFile::read(source_directory + "/" + scene);
   }
 
-  std::vector<PhysicalNumbers::Line>
-  history(const SceneFile &file, const Overrides &overrides)
-  {
-    std::ofstream("scene.prm") << file.text();
-    return run("scene.prm", overrides);
-  }
-
   /** A bar between two planes of symmetry: its ends do not move, and what was
    *  a sine stays one, $u=A\sin(\pi x)\cos(\pi ct)$. */
   SceneFile
@@ -88,12 +81,11 @@ namespace
             double              gap = 0.;
             for (const int steps : {50, 100, 200})
               {
-                const auto lines =
-                  history(standing_wave(dim, granular),
-                          {"Time integration/Time step=" +
-                             std::to_string(1.25 / steps),
-                           "Time integration/Spectral radius=" +
-                             std::to_string(radius)});
+                const auto lines = run(standing_wave(dim, granular),
+                                       {"Time integration/Time step=" +
+                                          std::to_string(1.25 / steps),
+                                        "Time integration/Spectral radius=" +
+                                          std::to_string(radius)});
                 errors.push_back(value(lines.back(), "relative L2 error"));
                 velocity_errors.push_back(
                   value(lines.back(), "relative L1 error of velocity"));
@@ -131,8 +123,7 @@ namespace
     implicit.insert(implicit.end(),
                     {"Time integration/Scheme=implicit",
                      "Time integration/Time step=" + time_step});
-    const auto a = history(file, overrides).back(),
-               b = history(file, implicit).back();
+    const auto a = run(file, overrides).back(), b = run(file, implicit).back();
     report.out << name << ", explicit and implicit:\n";
     for (const auto &column : columns)
       {
@@ -156,10 +147,10 @@ namespace
         std::ostringstream text;
         text << tolerance;
         const auto lines =
-          history(standing_wave(2, false),
-                  {"Time integration/Error tolerance=" + text.str(),
-                   "Time integration/Maximum time step=1",
-                   "Time integration/Linear shock viscosity=0"});
+          run(standing_wave(2, false),
+              {"Time integration/Error tolerance=" + text.str(),
+               "Time integration/Maximum time step=1",
+               "Time integration/Linear shock viscosity=0"});
         const double error = value(lines.back(), "relative L2 error"),
                      steps = value(lines.back(), "step");
         report.out << tolerance << ' ' << steps << ' ' << std::setprecision(2)

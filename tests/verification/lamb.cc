@@ -15,13 +15,6 @@ namespace
 {
   const double rho = 2000., mu = 8e7, c_s = 200., pi = numbers::PI;
 
-  std::vector<PhysicalNumbers::Line>
-  history(const SceneFile &file, const Overrides &overrides)
-  {
-    std::ofstream("scene.prm") << file.text();
-    return run("scene.prm", overrides);
-  }
-
   /** Ratio of the speeds of Rayleigh and S waves. */
   double
   rayleigh(const double nu)
@@ -190,9 +183,9 @@ namespace
     for (const std::string cells : {"24, 20", "48, 40", "96, 80"})
       {
         const auto lines =
-          history(file,
-                  {"Geometry/Arguments=" + cells + " : 0, -20 : 24, 0 : true",
-                   "Output/Probe lines="});
+          run(file,
+              {"Geometry/Arguments=" + cells + " : 0, -20 : 24, 0 : true",
+               "Output/Probe lines="});
         report.out << cells << " cells:" << std::setprecision(2);
         for (const int probe : {1, 2, 3})
           {
@@ -238,7 +231,7 @@ namespace
       report.out << '\n';
     };
     compare("Point load in space",
-            history(file, {"Output/Probe lines="}),
+            run(file, {"Output/Probe lines="}),
             "z",
             {6., 10., std::sqrt(98.)},
             0.04,
@@ -247,10 +240,10 @@ namespace
     SceneFile axial = SceneFile::read(source_directory + "/prm/lamb_2d.prm");
     axial.set({}, "Embedding", "axisymmetric");
     compare("Point load in axisymmetry",
-            history(axial,
-                    {"Output/Probe lines=",
-                     "Loads/Constants=P = 2e6, T = 0.02", // all of it
-                     "Output/Probe points=5, 0; 10, 0"}),
+            run(axial,
+                {"Output/Probe lines=",
+                 "Loads/Constants=P = 2e6, T = 0.02", // all of it
+                 "Output/Probe points=5, 0; 10, 0"}),
             "y",
             {5., 10.},
             0.02,
@@ -302,12 +295,12 @@ namespace
           };
         {
           const auto lines =
-            history(file,
-                    {"Geometry/Arguments=100, 30 : 0, -15 : 50, 0 : true",
-                     "Time integration/End time=0.27",
-                     "Point forces/hammer/Force=0; "
-                     "-P/2*if(t < 2*T, sin(pi*t/(2*T))^2, 0)",
-                     "Output/Probe points=20, 0; 40, 0"});
+            run(file,
+                {"Geometry/Arguments=100, 30 : 0, -15 : 50, 0 : true",
+                 "Time integration/End time=0.27",
+                 "Point forces/hammer/Force=0; "
+                 "-P/2*if(t < 2*T, sin(pi*t/(2*T))^2, 0)",
+                 "Output/Probe points=20, 0; 40, 0"});
           report_speed("Rayleigh",
                        20. / (time_of_extreme(lines, "velocity y at probe 2") -
                               time_of_extreme(lines, "velocity y at probe 1")),
@@ -328,8 +321,8 @@ namespace
             strip.set({"Output"}, "Probe points", "10, 0.5; 30, 0.5");
             const double c = shear ? c_s : c_p;
             const auto   lines =
-              history(strip,
-                      {"Time integration/End time=" + std::to_string(36. / c)});
+              run(strip,
+                  {"Time integration/End time=" + std::to_string(36. / c)});
             const std::string column =
               std::string("velocity ") + (shear ? "y" : "x") + " at probe ";
             report_speed(shear ? "S" : "P",

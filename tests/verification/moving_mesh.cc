@@ -11,13 +11,6 @@ using Signoton::SceneFile;
 
 namespace
 {
-  std::vector<PhysicalNumbers::Line>
-  history(const SceneFile &file, const Overrides &overrides)
-  {
-    std::ofstream("scene.prm") << file.text();
-    return run("scene.prm", overrides);
-  }
-
   /** A body that nothing holds, with a bump of velocity that moves away and
    *  spreads. */
   SceneFile
@@ -89,7 +82,7 @@ namespace
     if (scheme == "implicit")
       overrides.emplace_back("Time integration/Time step=0.01");
     const auto lines =
-      history(free_body(dim, degree, granular, kind), overrides);
+      Verification::run(free_body(dim, degree, granular, kind), overrides);
     double      drift = 0., gap = 0., gain = 0., most = 0., least = 1e300;
     bool        grows = false, shrinks = false;
     const char *axes[] = {"momentum x", "momentum y", "momentum z"};
@@ -153,7 +146,7 @@ namespace
     const auto      run    = [&](const Overrides &more) {
       Overrides all = common;
       all.insert(all.end(), more.begin(), more.end());
-      return history(file, all);
+      return Verification::run(file, all);
     };
     const auto uniform =
       run({"Refinement/Follow waves=false", "Geometry/Initial refinement=3"});

@@ -88,13 +88,6 @@ namespace
     file.set({"Output"}, "Probe points", points);
   }
 
-  std::vector<PhysicalNumbers::Line>
-  history(const SceneFile &file)
-  {
-    std::ofstream("scene.prm") << file.text();
-    return run("scene.prm", {});
-  }
-
   double
   velocity(const PhysicalNumbers::Line &line, const unsigned int probe)
   {
@@ -155,7 +148,7 @@ namespace
     // holds the tension of the binders
     file.set({"Boundaries", "right"}, "Displacement x", "0");
     probe(file, dim, {0., 0.1, 0.3, 0.6});
-    const auto  lines = history(file);
+    const auto  lines = run(file);
     const auto &last  = lines.back();
     report.require(
       name + ", front speed",
@@ -213,7 +206,7 @@ main(int argc, char **argv)
         file.set({"Boundaries", "left"}, "Velocity x", "0.02");
         file.set({"Reference solution"}, "Velocity", "0.02*(x < 0.5*t); 0");
         const double error =
-          value(history(file).back(), "relative L1 error of velocity");
+          value(run(file).back(), "relative L1 error of velocity");
         std::cout << n << " " << error << std::endl;
         if (n == 400)
           report.require_order("L1 error", std::log2(before / error), 0.9);
@@ -230,7 +223,7 @@ main(int argc, char **argv)
     loosen(file, 2, "0.03*(x > 1)");
     file.set({"Initial state"}, "Velocity", "0.04*(x < 1 + 1e-9); 0");
     probe(file, 2, {1.1, 1.3});
-    const auto lines = history(file);
+    const auto lines = run(file);
     report.require("impact, velocity",
                    velocity(lines.back(), 1) / v - 1.,
                    5e-3);
@@ -250,7 +243,7 @@ main(int argc, char **argv)
       file.set({"Boundaries", "left"}, "Velocity x", text(V));
       file.set({"Boundaries", "right"}, "Symmetry", "true");
       probe(file, 2, {0.7, 0.95});
-      const auto   last = history(file).back();
+      const auto   last = run(file).back();
       const double strain =
         (displacement(last, 2) - displacement(last, 1)) / 0.25 + e0;
       report.require("amplification at V = " + text(V),
@@ -265,7 +258,7 @@ main(int argc, char **argv)
     loosen(file, 2, "0.03");
     file.set({"Boundaries", "left"}, "Pressure", "0.01*(t < 0.3)");
     probe(file, 2, {0.25, 0.32});
-    const auto lines = history(file);
+    const auto lines = run(file);
     report.require("impulse, first front",
                    arrival(lines, 1, 0.01) / 0.5 - 1.,
                    5e-3);
@@ -285,7 +278,7 @@ main(int argc, char **argv)
     loosen(file, 2, "0.05");
     file.set({"Boundaries", "left"}, "Pressure", "2e-4*(1 + sin(4*pi*t))");
     probe(file, 2, {0.});
-    const double closed = displacement(history(file).back(), 1) / 0.05;
+    const double closed = displacement(run(file).back(), 1) / 0.05;
     report.require("stiff grains, front", closed / 0.38447 - 1., 0.01);
   }
 
@@ -301,7 +294,7 @@ main(int argc, char **argv)
       loosen(file, 2, text(e0));
       file.set({"Boundaries", "left"}, "Velocity x", text(V));
       probe(file, 2, {0.1, 0.3, 0.7});
-      const auto   lines = history(file);
+      const auto   lines = run(file);
       const double level = is_high ? V / 2. : 0.5 * 0.022913;
       report.require(
         "yielding grains, front speed",
@@ -330,7 +323,7 @@ main(int argc, char **argv)
     SceneFile file = strip(2, 400, 1., 1.6);
     file.set({"Boundaries", "left"}, "Pressure", "0.01*(t < 0.3)");
     probe(file, 2, {0.6, 0.75, 0.95, 1.});
-    const auto lines = history(file);
+    const auto lines = run(file);
     for (const unsigned int i : {3, 4})
       report.require("spall, slab",
                      velocity(lines.back(), i) / 0.02 - 1.,

@@ -113,6 +113,14 @@ namespace Verification
     return PhysicalNumbers::read("results/statistics.csv");
   }
 
+  /** The same with a scene that the test has made. */
+  inline std::vector<PhysicalNumbers::Line>
+  run(const Signoton::SceneFile &scene, const Overrides &overrides = {})
+  {
+    std::ofstream("scene.prm") << scene.text();
+    return run("scene.prm", overrides);
+  }
+
   /** Bisection: the root of @p f between @p a and @p b. */
   inline double
   root(const std::function<double(double)> &f, double a, double b)

@@ -72,6 +72,21 @@ namespace Signoton
     void
     evaluate_dashpots();
 
+    /** Enter a step into the receipt. All numbers are those of this rank.
+     *  @param force_work of what balances in the equation of motion, but for
+     *    the change of the kinetic energy; what the material has not got of it
+     *    is lost by time stepping
+     *  @param outer_work of loads and supports
+     *  @param damped     by absorbing boundaries
+     *  @param kinetic    energy at the end
+     *  @return @p own, summed over all ranks */
+    DynamicSums
+    enter_step(const double       force_work,
+               const double       outer_work,
+               const double       damped,
+               const double       kinetic,
+               const DynamicSums &own);
+
     /** Sums over all ranks. */
     template <std::size_t n>
     std::array<double, n>

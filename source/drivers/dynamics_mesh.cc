@@ -1,0 +1,232 @@
+#include <signoton/discretization/momentum_transfer.h>
+#include <signoton/drivers/dynamics.h>
+#include <signoton/operators/lumped_mass.h>
+
+#include <deal.II/distributed/solution_transfer.h>
+#include <deal.II/dofs/dof_tools.h>
+
+// How the mesh of dynamics follows the waves.
+
+namespace Signoton
+{
+  template <int dim>
+  double
+  Dynamics<dim>::energy_at_rest() const
+  {
+    if (!model.initial_strain && !model.initial_stress)
+      return 0.;
+    VectorType nowhere;
+    nowhere.reinit(displacement);
+    return model.mechanics->energy_balance(nowhere).stored;
+  }
+
+  template <int dim>
+  void
+  Dynamics<dim>::start()
+  {
+    set_initial_motion();
+    if (!model.wave_refinement.is_on())
+      return;
+    for (unsigned int level = 0; level < model.wave_refinement.n_levels();
+         ++level)
+      {
+        if (!mark())
+          break;
+        model.space->mesh.execute_coarsening_and_refinement();
+        setup();
+        choose_step();
+        set_initial_motion();
+      }
+  }
+
+  template <int dim>
+  bool
+  Dynamics<dim>::mark()
+  {
+    const auto   timer = model.ledger.time("error estimate");
+    auto        &space = *model.space;
+    const double ahead = model.wave_refinement.interval() * time_step;
+    double       speed = 0.;
+    boost::container::flat_map<types::material_id, double> shear_modulus;
+    for (const auto &material : model.materials)
+      {
+        speed = std::max(speed, material.longitudinal_speed());
+        shear_modulus[material.id] = material.elasticity().shear;
+      }
+    // Waves that are only in the velocity yet, and loads that only begin, are
+    // seen by going ahead.
+    VectorType u(displacement), v(velocity);
+    supports.move(displacement, time, ahead, v);
+    u.add(ahead, v);
+    space.mesh_constraints.distribute(u);
+    model.set_time(time + ahead);
+    const PointSpace<dim> points(space, dim * (dim + 1) / 2);
+    VectorType            stress = points.make_relevant_vector();
+    model.mechanics->stress_field(u, points, stress);
+    stress.update_ghost_values();
+    const bool changes =
+      model.wave_refinement.mark(space,
+                                 Refinement::traction_jumps(space,
+                                                            points,
+                                                            stress,
+                                                            model.conditions,
+                                                            shear_modulus),
+                                 speed * ahead,
+                                 largest_jump);
+    model.set_time(time);
+    return changes;
+  }
+
+  template <int dim>
+  void
+  Dynamics<dim>::transfer()
+  {
+    const auto  &mechanics   = model.mechanics;
+    auto        &space       = *model.space;
+    const double rest_before = rest_energy;
+    const double before      = receipt.kinetic + receipt.stored - rest_before;
+
+    using Transfer = parallel::distributed::SolutionTransfer<dim, VectorType>;
+    VectorType u   = space.make_relevant_vector(), v(u), history;
+    u.copy_locally_owned_data_from(displacement);
+    v.copy_locally_owned_data_from(velocity);
+    for (VectorType *vector : {&u, &v})
+      {
+        space.mesh_constraints.distribute(*vector);
+        vector->update_ghost_values();
+      }
+    CellMass<dim>             cell_mass(space, model.materials);
+    Transfer                  motion(space.dof_handler);
+    std::unique_ptr<Transfer> of_history;
+    space.mesh.prepare_coarsening_and_refinement();
+    motion.prepare_for_coarsening_and_refinement(
+      std::vector<const VectorType *>{&u, &v});
+    if (history_space)
+      {
+        history = history_space->make_relevant_vector();
+        mechanics->save_history(*history_space, history);
+        history.update_ghost_values();
+        of_history = std::make_unique<Transfer>(history_space->dof_handler);
+        of_history->prepare_for_coarsening_and_refinement(history);
+      }
+    MomentumTransfer<dim> momentum(space, v, std::ref(cell_mass));
+    space.mesh.execute_coarsening_and_refinement();
+
+    setup();
+    u = space.make_relevant_vector();
+    v.reinit(u);
+    std::vector<VectorType *> moved_fields{&displacement, &velocity};
+    motion.interpolate(moved_fields);
+    if (history_space)
+      {
+        VectorType new_history = history_space->make_relevant_vector();
+        of_history->interpolate(new_history);
+        mechanics->load_history(*history_space, new_history);
+      }
+    v.copy_locally_owned_data_from(velocity);
+    space.mesh_constraints.distribute(v);
+    v.update_ghost_values();
+    const VectorType missing = momentum.missing(v);
+    for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+      if (!(mass.local_element(i) > 0.)) // follows others
+        displacement.local_element(i) = velocity.local_element(i) = 0.;
+
+    // back to the admissible set, at fixed strain and in no time: dampers stand
+    // still
+    mechanics->remember_dilatation(displacement);
+    mechanics->set_time_step(1e-6 * time_step);
+    const DynamicSums own =
+      mechanics->dynamic_force(displacement, internal, true, -1.);
+    mechanics->commit();
+    mechanics->set_time_step(time_step);
+    // the new points see the initial state anew
+    receipt.initial += rest_energy - rest_before;
+    receipt.stored = sum<1>({{own.stored}})[0];
+    balance_transfer(missing, before);
+
+    evaluate_loads();
+    evaluate_dashpots();
+    accelerate(0.);
+    choose_step();
+  }
+
+  template <int dim>
+  bool
+  Dynamics<dim>::slow_down(const std::vector<bool> &wanted, const double energy)
+  {
+    const auto                 &dofs  = model.space->dof_handler;
+    const IndexSet             &owned = dofs.locally_owned_dofs();
+    const std::vector<IndexSet> components =
+      DoFTools::locally_owned_dofs_per_component(dofs);
+    const auto for_each = [&](const auto &action) {
+      for (unsigned int c = 0; c < dim; ++c)
+        for (const auto dof : components[c])
+          if (const unsigned int i = owned.index_within_set(dof); wanted[i])
+            action(c, mass.local_element(i), velocity.local_element(i));
+    };
+    std::array<double, 2 * dim + 1> sums{};
+    for_each([&](const unsigned int c, const double m, const double v) {
+      sums[c] += m;
+      sums[dim + c] += m * v;
+      sums[2 * dim] += 0.5 * m * v * v;
+    });
+    sums = sum(sums);
+    std::array<double, dim> mean{};
+    double                  relative = sums[2 * dim];
+    for (unsigned int c = 0; c < dim; ++c)
+      if (sums[c] > 0.)
+        {
+          mean[c] = sums[dim + c] / sums[c];
+          relative -= 0.5 * sums[dim + c] * mean[c];
+        }
+    if (relative < energy)
+      return false;
+    const double factor = std::sqrt(1. - energy / relative);
+    for_each([&](const unsigned int c, const double, double &v) {
+      v = mean[c] + factor * (v - mean[c]);
+    });
+    return true;
+  }
+
+  template <int dim>
+  void
+  Dynamics<dim>::balance_transfer(VectorType missing, const double before)
+  {
+    supports.project(missing);
+    const unsigned int n = velocity.locally_owned_size();
+    std::vector<bool>  is_free(n), has_changed(n), moves(n);
+    for (unsigned int i = 0; i < n; ++i)
+      is_free[i] = mass.local_element(i) > 0.;
+    for (const auto &node : supports.nodes())
+      for (const unsigned int i : node.index)
+        is_free[i] = false;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        velocity.local_element(i) +=
+          missing.local_element(i) * inverse_mass.local_element(i);
+        has_changed[i] = is_free[i] && std::abs(missing.local_element(i)) > 0.;
+        moves[i]       = is_free[i] && std::abs(velocity.local_element(i)) > 0.;
+      }
+    receipt.kinetic   = kinetic_energy();
+    const double gain = receipt.kinetic + receipt.stored - rest_energy - before;
+    // Interpolation may stretch the body a little: the nodes that changed pay
+    // for it by their motion relative to each other, or else all that move.
+    if (gain > 0. && !slow_down(has_changed, gain))
+      slow_down(moves, gain);
+    receipt.kinetic = kinetic_energy();
+    receipt.transfer -= receipt.kinetic + receipt.stored - rest_energy - before;
+  }
+
+#define INSTANTIATE(dim)                                                     \
+  template double Dynamics<dim>::energy_at_rest() const;                     \
+  template void   Dynamics<dim>::start();                                    \
+  template bool   Dynamics<dim>::mark();                                     \
+  template void   Dynamics<dim>::transfer();                                 \
+  template void   Dynamics<dim>::balance_transfer(VectorType, const double); \
+  template bool   Dynamics<dim>::slow_down(const std::vector<bool> &,        \
+                                         const double);
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Signoton
