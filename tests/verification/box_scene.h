@@ -59,14 +59,6 @@ namespace Verification
         file.set(sand, "Binder ratio", text(lambda));
       }
   }
-
-  /** Run a scene that is not in a file yet; its last step. */
-  inline PhysicalNumbers::Line
-  run(const SceneFile &file)
-  {
-    std::ofstream("scene.prm") << file.text();
-    return run("scene.prm", {}).back();
-  }
 } // namespace Verification
 
 #endif

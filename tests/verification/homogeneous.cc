@@ -88,7 +88,7 @@ namespace
         file.set({"Boundaries", "back"}, "Pressure", text(pressure));
       }
     file.set({"Output"}, "Probe points", dim == 2 ? "1, 1" : "1, 1, 1");
-    const auto line    = run(file);
+    const auto line    = run(file).back();
     lateral            = value(line, "displacement x at probe 1");
     const double exact = root(
       [&](const double e) {
@@ -171,7 +171,7 @@ namespace
             file.set({"Output"},
                      "Probe points",
                      dim == 2 ? "0.5, 1" : "0.5, 0.5, 1");
-            const auto   line = run(file);
+            const auto   line = run(file).back();
             const double u = value(line, "displacement " + up + " at probe 1");
             measured       = value(line, "reaction top x") / normal;
             return std::max(std::abs((u - dilation) / R),
@@ -222,7 +222,7 @@ namespace
             file.set({"Boundaries", "bottom"}, "Symmetry", "true");
             const std::string up = dim == 2 ? "y" : "z";
             file.set({"Boundaries", "top"}, "Displacement " + up, text(strain));
-            measured = value(run(file), "reaction top " + up) / strain;
+            measured = value(run(file).back(), "reaction top " + up) / strain;
             return measured / modulus - 1.;
           });
         report.out << "  kappa " << std::fixed << std::setprecision(1) << kappa
