@@ -36,7 +36,7 @@ namespace Signoton
                  std::any_of(model.conditions.begin(),
                              model.conditions.end(),
                              [](const auto &c) { return c.varies(); });
-    remembers = model.mechanics->history_width() > 0;
+    const bool remembers = model.mechanics->history_width() > 0;
     if (remembers && history_space)
       history_space->distribute_dofs();
     else if (remembers)
@@ -245,6 +245,8 @@ namespace Signoton
   void
   Dynamics<dim>::report()
   {
+    if (!is_told())
+      return;
     const auto timer = model.ledger.time("output");
     VectorType u(displacement), v(velocity);
     model.space->mesh_constraints.distribute(u);
@@ -252,25 +254,19 @@ namespace Signoton
     model.set_time(time); // of references
     if (is_reported())
       add_statistics(u, v);
-    const TimeIntegration &parameters = model.time_integration;
-    const double           part       = part_of_run();
-    const unsigned int     snapshot =
-      static_cast<unsigned int>(part * parameters.snapshots + 1e-9);
-    if (parameters.snapshots > 0 && (n_steps == 0 || snapshot > n_snapshots))
+    if (is_snapshot_due())
       {
-        n_snapshots = snapshot;
+        n_snapshots = part_of(model.time_integration.snapshots);
         output.write_fields(u, &v, time, n_steps);
       }
-    const unsigned int sample =
-      static_cast<unsigned int>(part * model.output.line_samples + 1e-9);
-    if (n_steps == 0 || sample > n_samples)
+    if (is_sample_due())
       {
-        n_samples = sample;
+        n_samples = part_of(model.output.line_samples);
         output.write_lines(u, &v, time);
       }
     if (is_line_due())
       {
-        n_lines = twentieths();
+        n_lines = part_of(20);
         output.screen << std::setw(8) << n_steps << std::setw(12)
                       << short_number(time, 5) << std::setw(10)
                       << model.space->dof_handler.n_dofs() << std::setw(11)
@@ -333,7 +329,7 @@ namespace Signoton
     n_reported  = checkpoint.number("lines of statistics");
     n_snapshots = checkpoint.number("snapshots");
     n_samples   = checkpoint.number("samples");
-    n_lines     = twentieths();
+    n_lines     = part_of(20);
     setup();
     checkpoint.load_fields(
       history_space.get(),

@@ -129,7 +129,7 @@ namespace Signoton
       const auto timer = model.ledger.time("constitutive update");
       own              = model.mechanics->dynamic_force(displacement,
                                            internal,
-                                           this->needs_energies(),
+                                           this->is_observed(),
                                            quiet_displacement());
     }
     const auto timer = model.ledger.time("time integration");

@@ -220,10 +220,13 @@ namespace Signoton
     DynamicSums      &sums)
   {
     Rheology::Response<Number> response;
-    auto        accepted = Rheology::make_history<Number>(law), next = accepted;
-    const bool  at_rest   = !rest_strain.empty();
-    const bool  shock     = !dilatation.empty();
-    const Shock viscosity = shock_of(materials[material_of_batch[run.first]]);
+    auto accepted = Rheology::make_history<Number>(law), next = accepted;
+    // with energies, a report may follow that looks at the step once more
+    constexpr bool on_trial = (request & Rheology::energies) != 0;
+    const Number   interior(Rheology::index(Rheology::Region::interior));
+    const bool     at_rest = !rest_strain.empty();
+    const bool     shock   = !dilatation.empty();
+    const Shock viscosity  = shock_of(materials[material_of_batch[run.first]]);
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         const unsigned int n_lanes =
@@ -233,10 +236,10 @@ namespace Signoton
         cell.read_dof_values(displacement);
         if (is_quiet(cell))
           {
-            // the two copies of the history are exchanged after the step
-            std::copy_n(history.accepted(batch, 0),
-                        history.width(batch) * n_points,
-                        history.trial(batch, 0));
+            if constexpr (on_trial)
+              std::copy_n(history.accepted(batch, 0),
+                          history.width(batch) * n_points,
+                          history.trial(batch, 0));
             if (at_rest)
               {
                 stored = rest_energy[batch];
@@ -256,7 +259,11 @@ namespace Signoton
                   accepted,
                   next,
                   response);
-                write_history<Law>(next, history.trial(batch, q));
+                if constexpr (on_trial)
+                  write_history<Law>(next, history.trial(batch, q));
+                else if (!Law::interior_is_elastic ||
+                         !all_not_greater(response.region, interior))
+                  write_history<Law>(next, history.accepted(batch, q));
                 const Number w = weight(cell, q);
                 if constexpr ((request & Rheology::energies) != 0)
                   {
@@ -279,8 +286,8 @@ namespace Signoton
                     const Number pressure =
                       viscosity.pressure(closed * cell_size[batch]);
                     shocked += w * pressure * closed;
-                    response.stress -=
-                      pressure * unit_symmetric_tensor<3, Number>();
+                    response.stress =
+                      add_spherical(response.stress, Number(-pressure));
                     before = now;
                   }
                 submit(cell, q, response.stress);
@@ -323,6 +330,8 @@ namespace Signoton
   {
     DynamicSums sums;
     force = 0.; // see sweep()
+    if constexpr ((request & Rheology::energies) != 0)
+      history.begin_trial();
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &dst, const auto &src, const Range &range) {
         Cell cell(data, mesh_constraints);

@@ -158,11 +158,19 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
-  Tensor2<typename MechanicsKernel<Embedding, degree>::Number>
-  MechanicsKernel<Embedding, degree>::strain(const Cell        &cell,
-                                             const unsigned int q) const
+  inline DEAL_II_ALWAYS_INLINE
+    Tensor2<typename MechanicsKernel<Embedding, degree>::Number>
+    MechanicsKernel<Embedding, degree>::strain(const Cell        &cell,
+                                               const unsigned int q) const
   {
-    Tensor2<Number> result = to_3d(cell.get_symmetric_gradient(q));
+    const auto      gradient = cell.get_gradient(q);
+    Tensor2<Number> result;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        result[i][i] = gradient[i][i];
+        for (unsigned int j = 0; j < i; ++j)
+          result[i][j] = 0.5 * (gradient[i][j] + gradient[j][i]);
+      }
     if constexpr (Embedding::axisymmetric)
       result.access_raw_entry(2) =
         cell.get_value(q)[0] / cell.quadrature_point(q)[0];
@@ -196,7 +204,7 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
-  void
+  inline DEAL_II_ALWAYS_INLINE void
   MechanicsKernel<Embedding, degree>::submit(
     Cell                  &cell,
     const unsigned int     q,
@@ -256,6 +264,7 @@ namespace Signoton
     // tells by the layout of the vector which unknowns are touched when, and
     // with one rank both sets of constraints have the same layout.
     force = 0.;
+    history.begin_trial();
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &dst, const auto &src, const Range &range) {
         Cell cell(data, dof_index);
@@ -306,15 +315,17 @@ namespace Signoton
                   cell_size[batch] * std::max(dilatation[batch * n_points + q] -
                                                 trace(strain(cell, q)),
                                               Number(0.));
-                const auto I = unit_symmetric_tensor<3, Number>();
-                response.stress -= shock.pressure(closed) * I;
+                response.stress =
+                  add_spherical(response.stress,
+                                Number(-shock.pressure(closed)));
                 if constexpr (request & Rheology::potential)
                   response.potential +=
                     shock.potential(closed) / cell_size[batch];
                 if constexpr (request & Rheology::tangent)
                   response.tangent +=
-                    (shock.stiffness(closed) * cell_size[batch]) *
-                    tensor_product(I, I);
+                    isotropic_tensor<Number>(Number(shock.stiffness(closed) *
+                                                    cell_size[batch]),
+                                             Number(0.));
               }
             if constexpr (request & Rheology::tangent)
               if (with_tangent)

@@ -112,11 +112,13 @@ namespace Signoton
       return !(time < model.time_integration.end);
     }
 
-    /** Whether the energies at the end of the step are asked for. */
+    /** Whether anyone looks at the end of the step, so that energies are summed
+     *  up and the history is kept as it was before, see
+     *  Mechanics::dynamic_force(). */
     bool
-    needs_energies() const
+    is_observed() const
     {
-      return is_reported() || is_line_due() || is_mesh_due();
+      return is_told() || is_mesh_due();
     }
 
     Model<dim>               &model;
@@ -127,7 +129,6 @@ namespace Signoton
     PointForces<dim>          point_forces;
     std::vector<unsigned int> moved; ///< unknowns with a prescribed motion
     bool                      loads_vary = false; ///< in time
-    bool                      remembers = false; ///< any material has a history
 
     VectorType   displacement, velocity, acceleration;
     VectorType   mass, inverse_mass;
@@ -146,17 +147,39 @@ namespace Signoton
       return (time - parameters.start) / (parameters.end - parameters.start);
     }
 
-    /** Of the run, for lines on the screen. */
+    /** How many of @p n events, evenly over the run, are behind. */
     unsigned int
-    twentieths() const
+    part_of(const unsigned int n) const
     {
-      return static_cast<unsigned int>(20. * part_of_run() + 1e-9);
+      return static_cast<unsigned int>(n * part_of_run() + 1e-9);
     }
 
+    /** On the screen. */
     bool
     is_line_due() const
     {
-      return n_steps > 0 && twentieths() > n_lines;
+      return n_steps > 0 && part_of(20) > n_lines;
+    }
+
+    bool
+    is_snapshot_due() const
+    {
+      const unsigned int wanted = model.time_integration.snapshots;
+      return wanted > 0 && (n_steps == 0 || part_of(wanted) > n_snapshots);
+    }
+
+    bool
+    is_sample_due() const
+    {
+      return !model.probe_lines.empty() &&
+             (n_steps == 0 || part_of(model.output.line_samples) > n_samples);
+    }
+
+    bool
+    is_told() const
+    {
+      return is_reported() || is_snapshot_due() || is_sample_due() ||
+             is_line_due();
     }
 
     bool

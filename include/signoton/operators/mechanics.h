@@ -151,7 +151,8 @@ namespace Signoton
      * pressure $q=\rho h|\dot\theta|(c_l c_p+c_q h|\dot\theta|)$ (von Neumann
      * and Richtmyer 1950, Landshoff 1955) with the rate since the sweep before,
      * the size h of the cell by the degree, and the speed of the closed medium.
-     * @param with_energies if not, only what is dissipated is summed up
+     * @param with_energies if not, only what is dissipated is summed up, and
+     *   the step is accepted at once, without commit()
      * @param quiet cells are skipped, as being at rest, if no unknown of theirs
      *   exceeds this displacement in m; none are if it is negative
      */

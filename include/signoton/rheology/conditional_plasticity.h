@@ -29,9 +29,10 @@ namespace Signoton::Rheology
     using Contact = SpringAndProjection<Cone, Memory::none>;
     using This    = ConditionalPlasticity<YieldSet, Cone>;
 
-    static constexpr unsigned int n_tensors     = Hinge::n_tensors;
-    static constexpr unsigned int n_scalars     = Hinge::n_scalars;
-    static constexpr bool         has_potential = false;
+    static constexpr unsigned int n_tensors           = Hinge::n_tensors;
+    static constexpr unsigned int n_scalars           = Hinge::n_scalars;
+    static constexpr bool         has_potential       = false;
+    static constexpr bool         interior_is_elastic = true;
 
     /** @param binder moduli of the spring in parallel with the contact */
     ConditionalPlasticity(const Moduli   &spring,

@@ -29,7 +29,8 @@ namespace Signoton::Rheology
   class General
   {
   public:
-    static constexpr bool has_potential = true;
+    static constexpr bool has_potential       = true;
+    static constexpr bool interior_is_elastic = false; // there may be dampers
 
     explicit General(const Scheme &scheme);
 

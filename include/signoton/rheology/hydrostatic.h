@@ -30,7 +30,7 @@ namespace Signoton::Rheology
 
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    void
+    bool
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
@@ -41,8 +41,8 @@ namespace Signoton::Rheology
       const Number inside(index(Region::interior));
       const Number outside(index(Region::face));
       result.potential_correction = 0.;
-      result.stress = trial + (p - new_p) * unit_symmetric_tensor<3, Number>();
-      result.region = select_if_not_greater(
+      result.stress               = add_spherical(trial, Number(p - new_p));
+      result.region               = select_if_not_greater(
         p,
         Number(compression),
         select_if_not_greater(Number(-tension), p, inside, outside),
@@ -54,6 +54,7 @@ namespace Signoton::Rheology
                                                          Number(moduli.bulk),
                                                          Number(0.)),
                                    Number(2. * moduli.shear));
+      return all_not_greater(result.region, inside);
     }
 
     double

@@ -51,13 +51,15 @@ namespace Signoton::Rheology
     /** Whether the stress of a step is the derivative of a potential, so that
      *  the tangent is symmetric. */
     static constexpr bool has_potential = true;
+    /** Whether only points outside Region::interior remember anything new. */
+    static constexpr bool interior_is_elastic = true;
 
     explicit Elastic(const Moduli &spring)
       : spring(spring)
     {}
 
     template <unsigned int request, typename Number>
-    void
+    DEAL_II_ALWAYS_INLINE void
     update(const Tensor2<Number> &strain,
            const History<Elastic, Number> &,
            History<Elastic, Number> &,
@@ -125,7 +127,8 @@ namespace Signoton::Rheology
   public:
     static constexpr unsigned int n_tensors = memory == Memory::none ? 0 : 1;
     static constexpr unsigned int n_scalars = Set::hardens ? 1 : 0;
-    static constexpr bool         has_potential = true;
+    static constexpr bool         has_potential       = true;
+    static constexpr bool         interior_is_elastic = true;
 
     using This = SpringAndProjection<Set, memory>;
 
@@ -136,13 +139,14 @@ namespace Signoton::Rheology
       : spring(spring)
       , binder(binder)
       , metric{spring.bulk + binder.bulk, spring.shear + binder.shear}
+      , compliance(1. / (3. * metric.bulk), 1. / (2. * metric.shear))
       , to_spring{binder.bulk / metric.bulk, binder.shear / metric.shear}
       , to_set{spring.bulk / metric.bulk, spring.shear / metric.shear}
       , set(set)
     {}
 
     template <unsigned int request, typename Number>
-    void
+    DEAL_II_ALWAYS_INLINE void
     update(const Tensor2<Number>       &strain,
            const History<This, Number> &accepted,
            History<This, Number>       &trial,
@@ -152,21 +156,23 @@ namespace Signoton::Rheology
       Tensor2<Number>       t = s;
       if constexpr (n_tensors > 0)
         t -= metric.stress(accepted.tensors[0]);
-      if constexpr ((request & (potential | energies)) == 0)
-        if (respond_inside<request>(s, t, accepted, trial, response))
-          return;
-
       Projection<Number, (request & tangent) != 0> projection;
       if constexpr (n_scalars > 0)
         projection.hardening = accepted.scalars[0];
-      set.project(t, metric, projection);
+      const bool inside = set.project(t, metric, projection);
+      if constexpr ((request & (potential | energies)) == 0)
+        if (inside)
+          {
+            respond_inside<request>(s, accepted, trial, response);
+            return;
+          }
 
       response.stress = to_spring(s) + to_set(projection.stress);
       response.region = projection.region;
       if constexpr (n_tensors > 0)
         trial.tensors[0] =
           accepted.tensors[0] +
-          plastic_part(metric.strain(t - projection.stress), projection.region);
+          plastic_strain(Tensor2<Number>(t - projection.stress), projection);
       if constexpr (n_scalars > 0)
         trial.scalars[0] = projection.hardening;
       if constexpr (request & tangent)
@@ -203,20 +209,14 @@ namespace Signoton::Rheology
 
   private:
     /** The answer where no lane gives way, which most points of a body get:
-     *  that of the spring, short of the plastic strain. False elsewhere. */
+     *  that of the spring, short of the plastic strain. */
     template <unsigned int request, typename Number>
-    bool
+    DEAL_II_ALWAYS_INLINE void
     respond_inside(const Tensor2<Number>       &s,
-                   const Tensor2<Number>       &t,
                    const History<This, Number> &accepted,
                    History<This, Number>       &trial,
                    Response<Number>            &response) const
     {
-      Number plastic_shear(0.);
-      if constexpr (n_scalars > 0)
-        plastic_shear = accepted.scalars[0];
-      if (!set.contains(t, plastic_shear))
-        return false;
       response.stress = s;
       if constexpr (n_tensors > 0)
         response.stress -= spring.stress(accepted.tensors[0]);
@@ -226,17 +226,19 @@ namespace Signoton::Rheology
         response.tangent = spring.tensor<Number>();
       if constexpr (request & dissipation)
         response.dissipation = response.viscous_dissipation = Number(0.);
-      return true;
     }
 
-    template <typename Number>
-    Tensor2<Number>
-    plastic_part(const Tensor2<Number> &q, const Number &region) const
+    /** The plastic part of the strain $E_c^{-1}:(t-\pi)$. */
+    template <typename Number, bool with_tangent>
+    DEAL_II_ALWAYS_INLINE Tensor2<Number>
+                          plastic_strain(const Tensor2<Number>                  &residual,
+                                         const Projection<Number, with_tangent> &projection) const
     {
       if constexpr (memory == Memory::cylinder)
-        return set.cylinder_part(q, region);
+        return (compliance.deviatoric * projection.cylinder_share) *
+               deviatoric_part(residual);
       else
-        return q;
+        return compliance(residual);
     }
 
     /** Stored energy: both springs, isotropic hardening, and the work against
@@ -274,6 +276,7 @@ namespace Signoton::Rheology
     Moduli           spring;
     Moduli           binder;
     Moduli           metric;
+    IsotropicScaling compliance; ///< $E_c^{-1}$
     IsotropicScaling to_spring;
     IsotropicScaling to_set;
     Set              set;

@@ -49,50 +49,58 @@ namespace Signoton::Rheology
       : friction(friction)
       , apex(apex)
       , shear_strength(shear_strength)
+      , corner_pressure(shear_strength / friction)
     {}
-
-    /** Whether all lanes are inside. */
-    template <typename Number>
-    bool
-    contains(const Tensor2<Number> &t, const Number &) const
-    {
-      const Number strength = std::min(Number(friction * (pressure(t) + apex)),
-                                       Number(shear_strength));
-      const Tensor2<Number> deviator = deviatoric_part(t);
-      return all_not_greater(Number(0.), strength) &&
-             all_not_greater(Number(0.5 * (deviator * deviator)),
-                             Number(strength * strength));
-    }
 
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    void
+    DEAL_II_ALWAYS_INLINE bool
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
     {
       const Number          P        = pressure(trial) + apex;
       const Tensor2<Number> deviator = deviatoric_part(trial);
-      const Number          tau      = shear_intensity(deviator);
-      result.potential_correction    = 0.;
+      const Number          tau_2    = shear_invariant(deviator);
+      const Number          zero(0.), one(1.), yield(shear_strength);
+      result.potential_correction = 0.;
 
-      const Number strength =
-        std::min(Number(friction * P), Number(shear_strength));
-      if (all_not_greater(tau, strength))
+      const Number strength = std::min(Number(friction * P), yield);
+      if (all_not_greater(zero, strength) &&
+          all_not_greater(tau_2, Number(strength * strength)))
         {
-          result.stress = trial;
-          result.region = index(Region::interior);
+          result.stress         = trial;
+          result.region         = index(Region::interior);
+          result.cylinder_share = zero;
           if constexpr (with_tangent)
             result.tangent = moduli.tensor<Number>();
-          return;
+          return true;
         }
 
       const double k = moduli.bulk, mu = moduli.shear;
-      const double D = mu + friction * friction * k;
+      const double share = 1. / (mu + friction * friction * k);
+      const Number tau   = std::sqrt(tau_2);
       const Number P_face =
-        (mu / D) * P + (friction * k / D) * tau; // on the extended cone
-      const double P_corner = shear_strength / friction;
-      const Number zero(0.), one(1.);
+        (mu * share) * P + (friction * k * share) * tau; // on the extended cone
+
+      // Outside, P < P_face: the larger of the two is P in the cylinder only.
+      const Number new_P =
+        std::max(P, std::min(std::max(P_face, zero), Number(corner_pressure)));
+      const Number new_tau =
+        std::min(tau, std::min(Number(friction * new_P), yield));
+      const Number inverse_tau = one / select_if_less(zero, tau, tau, one);
+      const Number shear_scale = new_tau * inverse_tau;
+      result.stress = add_spherical(Tensor2<Number>(shear_scale * deviator),
+                                    Number(apex - new_P));
+
+      // In the corner, the contact takes (theta, theta / kappa) of the strain
+      // (theta, gamma); on the cone it takes all. Here mu times the shears.
+      const Number excess  = tau - new_tau;
+      const Number contact = (new_P - P) * (mu / (friction * k));
+      const Number flow    = std::max(zero, Number(excess - contact)) /
+                          select_if_less(zero, excess, excess, one);
+      result.cylinder_share =
+        select_if_not_greater(P_face, Number(corner_pressure), zero, flow);
 
       // A weight of one marks the lanes of a region; the order is the
       // sequential rule of the class comment, from last to first.
@@ -101,23 +109,13 @@ namespace Signoton::Rheology
                             const Number &at_vertex,
                             const Number &on_cylinder,
                             const Number &inside) {
-        Number value =
-          select_if_not_greater(P_face, Number(P_corner), on_face, in_corner);
+        const Number corner_P(corner_pressure);
+        Number       value =
+          select_if_not_greater(P_face, corner_P, on_face, in_corner);
         value = select_if_not_greater(P_face, zero, at_vertex, value);
-        value = select_if_not_greater(Number(P_corner), P, on_cylinder, value);
+        value = select_if_not_greater(corner_P, P, on_cylinder, value);
         return select_if_not_greater(tau, strength, inside, value);
       };
-
-      const Number safe_tau = select_if_less(zero, tau, tau, one);
-      const Number cut =
-        Number(std::isfinite(shear_strength) ? shear_strength : 0.) / safe_tau;
-      const Number face_scale  = friction * P_face / safe_tau;
-      const Number corner_P    = std::isfinite(P_corner) ? P_corner : 0.;
-      const Number new_P       = pick(corner_P, P_face, zero, P, P);
-      const Number shear_scale = pick(cut, face_scale, zero, cut, one);
-
-      result.stress = shear_scale * deviator +
-                      (apex - new_P) * unit_symmetric_tensor<3, Number>();
       result.region = pick(Number(index(Region::corner)),
                            Number(index(Region::face)),
                            Number(index(Region::vertex)),
@@ -125,37 +123,15 @@ namespace Signoton::Rheology
                            Number(index(Region::interior)));
       if constexpr (with_tangent)
         {
-          const Number c    = k * mu / D;
+          const Number c    = k * mu * share;
           const Number a_II = pick(zero, c, zero, Number(k), Number(k));
           const Number a_In = pick(zero, -friction * c, zero, zero, zero);
           const Number a_nn =
             pick(zero, friction * friction * c, zero, zero, Number(mu));
           result.tangent = revolution_tangent<Number>(
-            a_II, a_In, a_nn, 2. * mu * shear_scale, deviator / safe_tau);
+            a_II, a_In, a_nn, 2. * mu * shear_scale, inverse_tau * deviator);
         }
-    }
-
-    /**
-     * The part of a residual strain $q=E_c^{-1}(t-\pi)$ that is plastic flow on
-     * the cylinder; the rest belongs to the contact on the cone. In the corner
-     * the contact takes $(\theta_q,\theta_q/\kappa)$ of $(\theta_q,\gamma_q)$.
-     */
-    template <typename Number>
-    Tensor2<Number>
-    cylinder_part(const Tensor2<Number> &q, const Number &region) const
-    {
-      const Tensor2<Number> deviator = deviatoric_part(q);
-      const Number          gamma    = 2. * shear_intensity(deviator);
-      const Number          zero(0.), one(1.);
-      const Number safe_gamma = select_if_less(zero, gamma, gamma, one);
-      const Number in_corner =
-        std::max(zero, Number(one - trace(q) / (friction * safe_gamma)));
-      const Number share = select_if_less(
-        region,
-        Number(index(Region::cylinder)),
-        zero,
-        select_if_less(region, Number(index(Region::corner)), one, in_corner));
-      return share * deviator;
+      return false;
     }
 
     /** The cone cut off by a cylinder at @p strength in Pa. */
@@ -175,6 +151,7 @@ namespace Signoton::Rheology
     double friction;
     double apex;
     double shear_strength;
+    double corner_pressure; ///< $\tau_Y/\kappa$
   };
 } // namespace Signoton::Rheology
 

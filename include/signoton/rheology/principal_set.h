@@ -61,11 +61,12 @@ namespace Signoton::Rheology
 
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    void
+    bool
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
     {
+      bool inside                 = true;
       result.potential_correction = 0.;
       for (unsigned int i = 0; i < n_lanes<Number>(); ++i)
         {
@@ -77,18 +78,9 @@ namespace Signoton::Rheology
           set_lane(result.region, i, index(region));
           if constexpr (with_tangent)
             set_lane(result.tangent, i, derivative.tangent);
+          inside = inside && region == Region::interior;
         }
-    }
-
-    /** Whether all lanes are inside, as far as can be told cheaply. */
-    template <typename Number>
-    bool
-    contains(const Tensor2<Number> &t, const Number &) const
-    {
-      for (unsigned int i = 0; i < n_lanes<Number>(); ++i)
-        if (!is_clearly_inside(lane(t, i)))
-          return false;
-      return true;
+      return inside;
     }
 
     bool
@@ -245,15 +237,17 @@ namespace Signoton::Rheology
 
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    void
+    bool
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
     {
-      PrincipalSet::no_tension(0.).project(Tensor2<Number>(-trial),
-                                           moduli,
-                                           result);
+      const bool inside =
+        PrincipalSet::no_tension(0.).project(Tensor2<Number>(-trial),
+                                             moduli,
+                                             result);
       result.stress *= -1.;
+      return inside;
     }
 
     double

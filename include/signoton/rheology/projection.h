@@ -55,7 +55,8 @@ namespace Signoton::Rheology
 
   /**
    * The result of projecting a trial stress $t$ onto a convex set of stresses
-   * in the energy norm of moduli $(k_c,\mu_c)$.
+   * in the energy norm of moduli $(k_c,\mu_c)$. The sets' functions project()
+   * fill it and return whether all lanes were inside, where $\pi=t$.
    */
   template <typename Number, bool with_tangent>
   struct Projection : ProjectionTangent<Number, with_tangent>
@@ -69,6 +70,9 @@ namespace Signoton::Rheology
     Number hardening;
     /** What hardening adds to the incremental potential, in J/m^3. */
     Number potential_correction;
+    /** The part of the shear of $t-\pi$ that belongs to the cylinder, where a
+     *  set has one next to a cone; others leave it untouched. */
+    Number cylinder_share;
   };
 
   /**

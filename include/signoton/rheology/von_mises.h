@@ -30,52 +30,39 @@ namespace Signoton::Rheology
       , hardening_modulus(isotropic_hardening ? hardening_modulus : 0.)
     {}
 
-    /** Whether all lanes are inside.
-     *  @param plastic_shear accumulated so far; only sets that harden look */
-    template <typename Number>
-    bool
-    contains(const Tensor2<Number> &t, const Number &plastic_shear) const
-    {
-      Number strength = shear_strength;
-      if constexpr (hardens)
-        strength += hardening_stress(plastic_shear);
-      const Tensor2<Number> deviator = deviatoric_part(t);
-      return all_not_greater(Number(0.5 * (deviator * deviator)),
-                             Number(strength * strength));
-    }
-
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    void
+    bool
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
     {
       const Tensor2<Number> deviator = deviatoric_part(trial);
-      const Number          tau      = shear_intensity(deviator);
+      const Number          tau_2    = shear_invariant(deviator);
       Number                strength = shear_strength;
       if constexpr (hardens)
         strength += hardening_stress(result.hardening);
       result.potential_correction = 0.;
 
-      if (all_not_greater(tau, strength))
+      if (all_not_greater(tau_2, Number(strength * strength)))
         {
           result.stress = trial;
           result.region = index(Region::interior);
           if constexpr (with_tangent)
             result.tangent = moduli.tensor<Number>();
-          return;
+          return true;
         }
 
       const double k = moduli.bulk, mu = moduli.shear,
                    stiffness = mu + hardening_modulus;
       const Number zero(0.), one(1.);
-      const Number safe_tau = select_if_less(zero, tau, tau, one);
+      const Number tau         = std::sqrt(tau_2);
+      const Number inverse_tau = one / select_if_less(zero, tau, tau, one);
       const Number slip =
         std::max(zero, Number((tau - strength) * (1. / stiffness)));
-      const Number scale = one - mu * slip / safe_tau;
-      result.stress      = trial - (mu * slip / safe_tau) * deviator;
-      result.region      = select_if_less(zero,
+      const Number cut = mu * slip * inverse_tau;
+      result.stress    = trial - cut * deviator;
+      result.region    = select_if_less(zero,
                                      slip,
                                      Number(index(Region::cylinder)),
                                      Number(index(Region::interior)));
@@ -89,9 +76,13 @@ namespace Signoton::Rheology
         {
           const Number along = select_if_less(
             zero, slip, Number(mu * hardening_modulus / stiffness), Number(mu));
-          result.tangent = revolution_tangent<Number>(
-            Number(k), zero, along, 2. * mu * scale, deviator / safe_tau);
+          result.tangent = revolution_tangent<Number>(Number(k),
+                                                      zero,
+                                                      along,
+                                                      2. * mu * (one - cut),
+                                                      inverse_tau * deviator);
         }
+      return false;
     }
 
     /** What hardening adds to the shear strength, $H\gamma$ in Pa. */

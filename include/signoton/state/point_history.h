@@ -13,7 +13,8 @@ namespace Signoton
    * What the quadrature points remember, in two copies: accepted, at the
    * beginning of the step, and trial, at the iterate last evaluated. A step is
    * accepted by commit(); until then nothing accepted is touched, so that a
-   * failed step needs no repair.
+   * failed step needs no repair. Explicit time integration takes no step back
+   * and writes to the accepted copy: without begin_trial() there is no other.
    *
    * The memory is one array, cell batch after cell batch, with as many numbers
    * a point as the law of the batch asks for; a law without memory takes none.
@@ -32,10 +33,18 @@ namespace Signoton
       offset.assign(width.size() + 1, 0);
       for (std::size_t i = 0; i < width.size(); ++i)
         offset[i + 1] = offset[i] + width[i] * n_points;
-      accepted_values.resize(offset.back());
-      trial_values.resize(offset.back());
-      for (std::size_t i = 0; i < offset.back(); ++i)
-        accepted_values[i] = trial_values[i] = Number(0.);
+      accepted_values.clear();
+      accepted_values.resize(offset.back(), Number(0.));
+      trial_values.clear();
+      has_trial = false;
+    }
+
+    /** Before trial values are written, of all points. */
+    void
+    begin_trial()
+    {
+      trial_values.resize_fast(accepted_values.size());
+      has_trial = true;
     }
 
     Number *
@@ -56,11 +65,13 @@ namespace Signoton
       return widths[batch];
     }
 
-    /** Make the trial state the accepted one. */
+    /** Make the trial state, if there is one, the accepted one. */
     void
     commit()
     {
-      accepted_values.swap(trial_values);
+      if (has_trial)
+        accepted_values.swap(trial_values);
+      has_trial = false;
     }
 
     std::size_t
@@ -74,6 +85,7 @@ namespace Signoton
     std::vector<std::size_t>  offset;
     AlignedVector<Number>     accepted_values;
     AlignedVector<Number>     trial_values;
+    bool                      has_trial = false;
   };
 } // namespace Signoton
 

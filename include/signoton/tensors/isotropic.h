@@ -20,31 +20,47 @@ namespace Signoton
 
   /** Pressure $p = -\mathrm{tr}\,\sigma/3$, positive in compression. */
   template <typename Number>
-  Number
+  inline DEAL_II_ALWAYS_INLINE Number
   pressure(const Tensor2<Number> &stress)
   {
     return trace(stress) * (-1. / 3.);
   }
 
+  /** $t+sI$, without the products with zeros of $I$ that a compiler has to
+   *  keep. */
+  template <typename Number>
+  inline DEAL_II_ALWAYS_INLINE Tensor2<Number>
+  add_spherical(const Tensor2<Number> &t, const Number &s)
+  {
+    Tensor2<Number> result = t;
+    for (unsigned int i = 0; i < 3; ++i)
+      result.access_raw_entry(i) += s;
+    return result;
+  }
+
   /** $t-\mathrm{tr}\,t\,I/3$. The deviator() of deal.II 9.4 divides by an
    *  `int`, which vectorized numbers do not take. */
   template <typename Number>
-  Tensor2<Number>
-  deviatoric_part(const Tensor2<Number> &t)
+  inline DEAL_II_ALWAYS_INLINE Tensor2<Number>
+                               deviatoric_part(const Tensor2<Number> &t)
   {
-    Tensor2<Number> result = t;
-    const Number    mean   = trace(t) * (1. / 3.);
-    for (unsigned int i = 0; i < 3; ++i)
-      result[i][i] -= mean;
-    return result;
+    return add_spherical(t, pressure(t));
+  }
+
+  /** $\tau^2 = s':s'/2$ of a *deviatoric* stress. */
+  template <typename Number>
+  inline DEAL_II_ALWAYS_INLINE Number
+  shear_invariant(const Tensor2<Number> &stress_deviator)
+  {
+    return 0.5 * (stress_deviator * stress_deviator);
   }
 
   /** Shear intensity $\tau = \sqrt{s':s'/2}$ of a *deviatoric* stress. */
   template <typename Number>
-  Number
+  inline DEAL_II_ALWAYS_INLINE Number
   shear_intensity(const Tensor2<Number> &stress_deviator)
   {
-    return std::sqrt(0.5 * (stress_deviator * stress_deviator));
+    return std::sqrt(shear_invariant(stress_deviator));
   }
 
   /** $a\otimes b$ on the 36 stored components. The outer_product() of deal.II
@@ -88,24 +104,21 @@ namespace Signoton
 
     /** $E:\varepsilon = k\,\theta\,I + 2\mu\,\varepsilon'$. */
     template <typename Number>
-    Tensor2<Number>
-    stress(const Tensor2<Number> &strain) const
+    DEAL_II_ALWAYS_INLINE Tensor2<Number>
+                          stress(const Tensor2<Number> &strain) const
     {
-      const Number theta = trace(strain);
-      return (bulk - 2. / 3. * shear) * theta *
-               unit_symmetric_tensor<3, Number>() +
-             2. * shear * strain;
+      return add_spherical(Tensor2<Number>((2. * shear) * strain),
+                           Number((bulk - 2. / 3. * shear) * trace(strain)));
     }
 
     /** The inverse of stress(). */
     template <typename Number>
-    Tensor2<Number>
-    strain(const Tensor2<Number> &stress) const
+    DEAL_II_ALWAYS_INLINE Tensor2<Number>
+                          strain(const Tensor2<Number> &stress) const
     {
-      const Number tr = trace(stress);
-      return (1. / (9. * bulk) - 1. / (6. * shear)) * tr *
-               unit_symmetric_tensor<3, Number>() +
-             1. / (2. * shear) * stress;
+      return add_spherical(Tensor2<Number>(1. / (2. * shear) * stress),
+                           Number((1. / (9. * bulk) - 1. / (6. * shear)) *
+                                  trace(stress)));
     }
 
     template <typename Number>
@@ -131,15 +144,22 @@ namespace Signoton
    */
   struct IsotropicScaling
   {
+    IsotropicScaling(const double spherical, const double deviatoric)
+      : spherical(spherical)
+      , deviatoric(deviatoric)
+      , offset((spherical - deviatoric) / 3.)
+    {}
+
     double spherical;
     double deviatoric;
+    double offset; ///< what it adds to the diagonal by the trace
 
     template <typename Number>
-    Tensor2<Number>
-    operator()(const Tensor2<Number> &t) const
+    DEAL_II_ALWAYS_INLINE Tensor2<Number>
+                          operator()(const Tensor2<Number> &t) const
     {
-      return deviatoric * t + (spherical - deviatoric) / 3. * trace(t) *
-                                unit_symmetric_tensor<3, Number>();
+      return add_spherical(Tensor2<Number>(deviatoric * t),
+                           Number(offset * trace(t)));
     }
 
     /** $A : T : A$ for a tangent $T$ with both minor symmetries. */
@@ -148,7 +168,6 @@ namespace Signoton
     both_sides(const Tensor4<Number> &tangent) const
     {
       const auto      I      = unit_symmetric_tensor<3, Number>();
-      const double    offset = (spherical - deviatoric) / 3.;
       Tensor4<Number> scaled = (deviatoric * deviatoric) * tangent;
       if (offset != 0.)
         {
