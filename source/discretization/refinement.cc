@@ -111,7 +111,8 @@ namespace Signoton
       std::vector<Vector<double>> raw;
     };
 
-    /** The tractions that a boundary condition leaves unbalanced. */
+    /** The tractions that a boundary condition leaves unbalanced. What moves a
+     *  boundary, or absorbs, takes any. */
     template <int dim>
     void
     subtract_given(const BoundaryCondition<dim> *condition,
@@ -130,7 +131,8 @@ namespace Signoton
             {
               if (condition->traction)
                 traction[q][d] -= condition->traction->value(p, d);
-              if (condition->displacement[d])
+              if (condition->displacement[d] || condition->velocity[d] ||
+                  condition->absorbs())
                 traction[q][d] = 0.;
             }
           if (condition->symmetry)

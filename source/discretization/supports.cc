@@ -199,6 +199,19 @@ namespace Signoton
   }
 
   template <int dim>
+  void
+  Supports<dim>::place(VectorType &displacement, const double time) const
+  {
+    for (const Motion &motion : motions)
+      if (!motion.is_velocity)
+        {
+          motion.function->set_time(time);
+          displacement.local_element(motion.index) =
+            motion.function->value(motion.point);
+        }
+  }
+
+  template <int dim>
   std::vector<unsigned int>
   Supports<dim>::moved() const
   {

@@ -50,9 +50,9 @@ namespace Signoton
                                &mass,
                                &inverse_mass,
                                &internal,
-                               &external,
                                &old_internal})
       model.mechanics->initialize_vector(*vector);
+    model.mechanics->initialize_mesh_vector(external);
     if (loads_vary)
       old_external.reinit(external);
     if (!absorbing.empty())
@@ -173,17 +173,23 @@ namespace Signoton
                             const double       kinetic,
                             const DynamicSums &own)
   {
-    const auto        all = sum<10>({{force_work,
-                                      outer_work,
-                                      damped,
-                                      kinetic,
-                                      own.stored,
-                                      own.voids,
-                                      own.dissipated,
-                                      own.viscous,
-                                      own.shock,
-                                      own.quiet_cells}});
-    const DynamicSums sums{all[4], all[5], all[6], all[7], all[8], all[9]};
+    const auto  all  = sum<10>({{force_work,
+                                 outer_work,
+                                 damped,
+                                 kinetic,
+                                 own.stored,
+                                 own.voids,
+                                 own.dissipated,
+                                 own.viscous,
+                                 own.shock,
+                                 own.quiet_cells}});
+    DynamicSums sums = own;
+    sums.stored      = all[4];
+    sums.voids       = all[5];
+    sums.dissipated  = all[6];
+    sums.viscous     = all[7];
+    sums.shock       = all[8];
+    sums.quiet_cells = all[9];
     // Between the lines of statistics the material is not asked what it has
     // stored: the next answer makes up for that.
     receipt.time_stepping +=
@@ -354,6 +360,7 @@ namespace Signoton
       model.time_integration.shock_viscosity);
     setup();
     choose_step();
+    refuse_jump();
   }
 
   template <int dim>

@@ -5,6 +5,8 @@
 #include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/dofs/dof_tools.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 // How the mesh of dynamics follows the waves.
 
 namespace Signoton
@@ -24,6 +26,7 @@ namespace Signoton
   void
   Dynamics<dim>::start()
   {
+    refuse_jump();
     set_initial_motion();
     if (!model.wave_refinement.is_on())
       return;
@@ -37,6 +40,26 @@ namespace Signoton
         choose_step();
         set_initial_motion();
       }
+  }
+
+  template <int dim>
+  void
+  Dynamics<dim>::refuse_jump()
+  {
+    const double cell =
+      Utilities::MPI::min(GridTools::minimal_cell_diameter(model.space->mesh),
+                          model.communicator);
+    VectorType there(displacement);
+    supports.place(there, time);
+    there -= displacement;
+    const double jump = there.linfty_norm();
+    if (jump > 1e-9 * cell)
+      throw UserError(model.file.where({"Boundaries"}),
+                      "a prescribed displacement of " + short_number(jump) +
+                        " m at the start",
+                      "one that begins at zero, where the body is",
+                      "let it grow, such as 0.01*min(t/0.1, 1); or prescribe "
+                      "a velocity");
   }
 
   template <int dim>
@@ -62,7 +85,9 @@ namespace Signoton
     model.set_time(time + ahead);
     const PointSpace<dim> points(space, dim * (dim + 1) / 2);
     VectorType            stress = points.make_relevant_vector();
+    model.mechanics->set_time_step(ahead);
     model.mechanics->stress_field(u, points, stress);
+    model.mechanics->set_time_step(time_step);
     stress.update_ghost_values();
     const bool changes =
       model.wave_refinement.mark(space,
@@ -123,6 +148,7 @@ namespace Signoton
         of_history->interpolate(new_history);
         mechanics->load_history(*history_space, new_history);
       }
+    supports.place(displacement, time);
     v.copy_locally_owned_data_from(velocity);
     space.mesh_constraints.distribute(v);
     v.update_ghost_values();
@@ -131,13 +157,17 @@ namespace Signoton
       if (!(mass.local_element(i) > 0.)) // follows others
         displacement.local_element(i) = velocity.local_element(i) = 0.;
 
-    // back to the admissible set, at fixed strain and in no time: dampers stand
-    // still
+    // Back to the admissible set, at fixed strain and in no time: dampers in
+    // series stand still. Those in parallel take up the interpolated strain in
+    // the first turn, against what would be a huge rate, and rest in the second.
     mechanics->remember_dilatation(displacement);
     mechanics->set_time_step(1e-6 * time_step);
-    const DynamicSums own =
-      mechanics->dynamic_force(displacement, internal, true, -1.);
-    mechanics->commit();
+    DynamicSums own;
+    for (unsigned int turn = 0; turn < 2; ++turn)
+      {
+        own = mechanics->dynamic_force(displacement, internal, true, -1.);
+        mechanics->commit();
+      }
     mechanics->set_time_step(time_step);
     // the new points see the initial state anew
     receipt.initial += rest_energy - rest_before;
@@ -220,6 +250,7 @@ namespace Signoton
 #define INSTANTIATE(dim)                                                     \
   template double Dynamics<dim>::energy_at_rest() const;                     \
   template void   Dynamics<dim>::start();                                    \
+  template void   Dynamics<dim>::refuse_jump();                              \
   template bool   Dynamics<dim>::mark();                                     \
   template void   Dynamics<dim>::transfer();                                 \
   template void   Dynamics<dim>::balance_transfer(VectorType, const double); \

@@ -7,11 +7,38 @@ namespace Signoton
   ExplicitDynamics<dim>::setup()
   {
     Dynamics<dim>::setup();
+    undamped_step = model.mechanics->stable_time_step() *
+                    model.wave_refinement.finest_part(*model.space);
+    damp();
+  }
+
+  template <int dim>
+  void
+  ExplicitDynamics<dim>::damp()
+  {
     // viscosity shortens the stable step by the part of critical damping
-    const double c = model.time_integration.shock_viscosity.linear;
-    stable_step    = model.mechanics->stable_time_step() *
-                  model.wave_refinement.finest_part(*model.space) *
-                  (std::sqrt(1. + c * c) - c);
+    const ShockViscosity &viscosity = model.time_integration.shock_viscosity;
+    const auto            with      = [&](const double closing) {
+      const double part = viscosity.linear + viscosity.quadratic * closing;
+      return undamped_step * (std::sqrt(1. + part * part) - part);
+    };
+    stable_step       = with(fastest_closing);
+    usual_stable_step = with(0.);
+  }
+
+  template <int dim>
+  void
+  ExplicitDynamics<dim>::follow_shock(const double closing)
+  {
+    if (!model.time_integration.shock_viscosity)
+      return;
+    const double all = Utilities::MPI::max(closing, model.communicator);
+    if (!(all > fastest_closing))
+      return;
+    fastest_closing = all;
+    damp();
+    if (time_step > stable_step && !this->is_finished())
+      choose_step();
   }
 
   template <int dim>
@@ -26,10 +53,13 @@ namespace Signoton
                         Utilities::to_string(stable_step) + " s",
                       "leave it out: 'Safety' chooses a part of the stable "
                       "step");
-    const double wanted = parameters.time_step > 0. ?
-                            parameters.time_step :
-                            parameters.safety * stable_step;
-    const double left   = parameters.end - time;
+    // only shocks that use up the safety make steps shorter
+    const double usual = parameters.safety * usual_stable_step;
+    const double wanted =
+      parameters.time_step > 0. ? parameters.time_step :
+      usual <= stable_step      ? usual :
+                                  parameters.safety * stable_step;
+    const double left = parameters.end - time;
     steps_left =
       std::max(1U, static_cast<unsigned int>(std::ceil(left / wanted - 1e-9)));
     time_step = left / steps_left;
@@ -64,6 +94,7 @@ namespace Signoton
   {
     auto numbers = Dynamics<dim>::numbers_to_keep();
     numbers.emplace_back("largest displacement", &largest_displacement);
+    numbers.emplace_back("fastest closing", &fastest_closing);
     return numbers;
   }
 
@@ -139,6 +170,7 @@ namespace Signoton
         0.5 * time_step * acceleration.local_element(i);
     this->evaluate_dashpots();
     account(own, before);
+    follow_shock(own.closing);
     if (!std::isfinite(receipt.kinetic))
       throw UserError("t = " + Utilities::to_string(time),
                       "a velocity that is not a number",
@@ -186,6 +218,9 @@ namespace Signoton
           0.5 * mass.local_element(i) * v * v +
           path * (internal.local_element(i) + old_internal.local_element(i) -
                   external.local_element(i) - external_before.local_element(i));
+        if (!absorbing.empty())
+          supported +=
+            path * (dashpots.local_element(i) + old_dashpots.local_element(i));
       }
     const DynamicSums sums =
       this->enter_step(inner - 0.125 * dt * dt * (half_after - before.second),

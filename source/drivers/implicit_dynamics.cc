@@ -41,6 +41,8 @@ namespace Signoton
       next_step = parameters.time_step;
     else if (!(next_step > 0.))
       next_step = std::min(stable_step, parameters.longest_step());
+    if (!(time_step > 0.)) // the mesh looks ahead before the first step
+      time_step = next_step;
   }
 
   template <int dim>
@@ -103,7 +105,7 @@ namespace Signoton
     this->evaluate_loads();
     model.mechanics->set_time_step(dt);
     trial = {displacement, velocity, acceleration};
-    supports.move(displacement, time, dt, trial.velocity);
+    supports.move(displacement, time - dt, dt, trial.velocity);
     VectorType lift, predicted(displacement), pull(external);
     lift.reinit(displacement);
     for (const unsigned int i : moved)

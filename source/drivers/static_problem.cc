@@ -21,7 +21,7 @@ namespace Signoton
     const auto &space = *model.space;
     const auto &owned = space.dof_handler.locally_owned_dofs();
     model.mechanics->initialize_vector(load);
-    model.mechanics->initialize_vector(load_of_mesh);
+    model.mechanics->initialize_mesh_vector(load_of_mesh);
     surface_load.reinit(space, model.conditions);
     point_forces.reinit(space, model.point_forces);
 

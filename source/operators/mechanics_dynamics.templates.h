@@ -39,7 +39,8 @@ namespace Signoton
     return {Number(1. / time_step),
             Number(material.density * shock_viscosity.linear *
                    material.longitudinal_speed()),
-            Number(material.density * shock_viscosity.quadratic)};
+            Number(material.density * shock_viscosity.quadratic),
+            material.longitudinal_speed()};
   }
 
   template <typename Embedding, int degree>
@@ -81,7 +82,8 @@ namespace Signoton
     rest_energy.resize(n_batches);
     rest_voids.resize(n_batches);
     Cell       cell(data, mesh_constraints);
-    double     largest = 0.; // of the differences from given stresses
+    double     largest       = 0.; // of the differences from given stresses
+    double     largest_given = 0.;
     Point<dim> place;
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
@@ -129,22 +131,26 @@ namespace Signoton
                 rest_stress[first + e] =
                   response.stress.access_raw_entry(entry);
               }
-            if (initial_state.stress != nullptr)
-              for (unsigned int i = 0; i < n_lanes; ++i)
-                {
-                  const double size = lane(given, i).norm();
-                  const double difference =
-                    (lane(response.stress, i) - lane(given, i)).norm() /
-                    std::max(size, std::numeric_limits<double>::min());
-                  if (!(difference <= largest))
-                    {
-                      largest = difference;
-                      place   = points[i];
-                    }
-                }
+            if (initial_state.stress == nullptr)
+              given = response.stress; // leaves what is not finite
+            for (unsigned int i = 0; i < n_lanes; ++i)
+              {
+                const double size = lane(given, i).norm();
+                const double difference =
+                  (lane(response.stress, i) - lane(given, i)).norm();
+                if (std::isfinite(size))
+                  largest_given = std::max(largest_given, size);
+                if (!std::isfinite(difference) || difference > largest)
+                  {
+                    largest = std::isfinite(difference) ?
+                                difference :
+                                std::numeric_limits<double>::infinity();
+                    place   = points[i];
+                  }
+              }
           }
       }
-    refuse_contradiction(largest, place);
+    refuse_contradiction(largest, largest_given, place);
     integrate_rest();
   }
 
@@ -152,11 +158,13 @@ namespace Signoton
   void
   MechanicsKernel<Embedding, degree>::refuse_contradiction(
     const double      difference,
+    const double      given,
     const Point<dim> &place)
   {
     constexpr double tolerance = 1e-8;
     const double     all = Utilities::MPI::max(difference, space.communicator);
-    if (all <= tolerance)
+    const double     scale = Utilities::MPI::max(given, space.communicator);
+    if (all <= tolerance * scale)
       return;
     // the rank that has it tells the others where
     std::ostringstream where;
@@ -168,12 +176,12 @@ namespace Signoton
       if (found.empty())
         found = text;
     std::ostringstream how_much;
-    how_much << 100. * all;
+    how_much << all << " Pa, where up to " << scale << " Pa are given";
     throw UserError(initial_state.where,
                     "at the point " + found +
                       " the material answers the initial strain and stress "
                       "with a stress that differs from the given one by " +
-                      how_much.str() + " %",
+                      how_much.str(),
                     "a stress that the material can bear, and no strain that "
                     "changes it",
                     "give one of them only; a stress has to be inside the "
@@ -231,7 +239,8 @@ namespace Signoton
       {
         const unsigned int n_lanes =
           data.n_active_entries_per_cell_batch(batch);
-        Number stored(0.), voids(0.), dissipated(0.), viscous(0.), shocked(0.);
+        Number stored(0.), voids(0.), dissipated(0.), viscous(0.), shocked(0.),
+          closing(0.);
         cell.reinit(batch);
         cell.read_dof_values(displacement);
         if (is_quiet(cell))
@@ -280,11 +289,12 @@ namespace Signoton
                   response.stress -= tensor_at(rest_stress, batch, q);
                 if (shock)
                   {
-                    Number      &before = dilatation[batch * n_points + q];
-                    const Number now    = trace(moved);
-                    const Number closed = std::max(before - now, Number(0.));
-                    const Number pressure =
-                      viscosity.pressure(closed * cell_size[batch]);
+                    Number      &before   = dilatation[batch * n_points + q];
+                    const Number now      = trace(moved);
+                    const Number closed   = std::max(before - now, Number(0.));
+                    const Number distance = closed * cell_size[batch];
+                    const Number pressure = viscosity.pressure(distance);
+                    closing               = std::max(closing, distance);
                     shocked += w * pressure * closed;
                     response.stress =
                       add_spherical(response.stress, Number(-pressure));
@@ -302,6 +312,10 @@ namespace Signoton
             sums.dissipated += dissipated[i];
             sums.viscous += viscous[i];
             sums.shock += shocked[i];
+            if (shock)
+              sums.closing =
+                std::max(sums.closing,
+                         closing[i] * viscosity.rate[i] / viscosity.speed);
           }
       }
   }
@@ -329,18 +343,20 @@ namespace Signoton
     VectorType       &force)
   {
     DynamicSums sums;
-    force = 0.; // see sweep()
     if constexpr ((request & Rheology::energies) != 0)
       history.begin_trial();
-    data.template cell_loop<VectorType, VectorType>(
-      [&](const auto &, auto &dst, const auto &src, const Range &range) {
-        Cell cell(data, mesh_constraints);
-        for_each_run(range, [&](const auto &law, const Range &run) {
-          dynamic_run<request>(law, cell, run, src, dst, sums);
-        });
-      },
-      force,
-      displacement);
+    const VectorType &source = in_layout(displacement, mesh_constraints);
+    collect(force, mesh_constraints, [&](VectorType &result) {
+      data.template cell_loop<VectorType, VectorType>(
+        [&](const auto &, auto &dst, const auto &src, const Range &range) {
+          Cell cell(data, mesh_constraints);
+          for_each_run(range, [&](const auto &law, const Range &run) {
+            dynamic_run<request>(law, cell, run, src, dst, sums);
+          });
+        },
+        result,
+        source);
+    });
     if (!rest_strain.empty())
       force += rest_force;
     return sums;
@@ -369,17 +385,18 @@ namespace Signoton
   {
     if (dilatation.empty())
       return;
-    displacement.update_ghost_values();
+    const VectorType &source = in_layout(displacement, mesh_constraints);
+    source.update_ghost_values();
     Cell cell(data, mesh_constraints);
     for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
       {
         cell.reinit(batch);
-        cell.read_dof_values(displacement);
+        cell.read_dof_values(source);
         cell.evaluate(cell_flags<Embedding>);
         for (unsigned int q = 0; q < n_points; ++q)
           dilatation[batch * n_points + q] = trace(strain(cell, q));
       }
-    displacement.zero_out_ghost_values();
+    source.zero_out_ghost_values();
   }
 
   template <typename Embedding, int degree>

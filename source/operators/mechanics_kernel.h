@@ -55,6 +55,8 @@ namespace Signoton
     set_shock_viscosity(const ShockViscosity &viscosity) override;
     void
     initialize_vector(VectorType &vector) const override;
+    void
+    initialize_mesh_vector(VectorType &vector) const override;
     double
     internal_force(const VectorType &displacement,
                    VectorType       &force,
@@ -122,6 +124,16 @@ namespace Signoton
 
     void
     find_materials();
+
+    /** A vector in the layout of a set of constraints: itself, or its copy. */
+    const VectorType &
+    in_layout(const VectorType &vector, const DofIndex dof_index);
+
+    /** Clear a vector, call `action(result)` to add to it in the layout of a set
+     *  of constraints. */
+    template <typename Action>
+    void
+    collect(VectorType &vector, const DofIndex dof_index, const Action &action);
 
     /** Unknowns of the point space on the cell in a lane of a batch. */
     void
@@ -202,6 +214,7 @@ namespace Signoton
     struct Shock
     {
       Number rate, linear, quadratic;
+      double speed; ///< of waves in the closed material, in m/s
 
       Number
       pressure(const Number &distance) const
@@ -240,7 +253,9 @@ namespace Signoton
     void
     integrate_rest();
     void
-    refuse_contradiction(const double difference, const Point<dim> &where);
+    refuse_contradiction(const double      difference,
+                         const double      given,
+                         const Point<dim> &where);
     void
     find_sizes();
     /** Whether no unknown that the cell has read exceeds the displacement of
@@ -272,7 +287,11 @@ namespace Signoton
     double                                 quiet_displacement = -1.; ///< in m
     std::vector<unsigned int>              material_of_id;
 
-    Data                      data;
+    Data data;
+    // By the constraints, different unknowns of other ranks may be ghosts here.
+    // Then, on any rank, vectors are copied for sweeps with those of the mesh.
+    bool                      layouts_agree = true;
+    VectorType                mesh_source, mesh_result;
     std::vector<unsigned int> material_of_batch;
     /** Elastic tangents by material: regularization, and what linear
      *  materials have instead of a tangent at every point. */

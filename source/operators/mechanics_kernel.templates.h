@@ -87,6 +87,12 @@ namespace Signoton
                   &space.constraints, &space.mesh_constraints},
                 std::vector<QGauss<1>>{QGauss<1>(degree + 1)},
                 options);
+    layouts_agree = data.get_vector_partitioner(all_constraints)
+                      ->is_globally_compatible(
+                        *data.get_vector_partitioner(mesh_constraints));
+    if (!layouts_agree)
+      for (VectorType *vector : {&mesh_source, &mesh_result})
+        initialize_mesh_vector(*vector);
     find_materials();
     if (initial_state)
       find_rest();
@@ -127,6 +133,43 @@ namespace Signoton
     VectorType &vector) const
   {
     data.initialize_dof_vector(vector, all_constraints);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::initialize_mesh_vector(
+    VectorType &vector) const
+  {
+    data.initialize_dof_vector(vector, mesh_constraints);
+  }
+
+  template <typename Embedding, int degree>
+  const VectorType &
+  MechanicsKernel<Embedding, degree>::in_layout(const VectorType &vector,
+                                                const DofIndex    dof_index)
+  {
+    if (layouts_agree || dof_index == all_constraints)
+      return vector;
+    mesh_source.copy_locally_owned_data_from(vector);
+    return mesh_source;
+  }
+
+  template <typename Embedding, int degree>
+  template <typename Action>
+  void
+  MechanicsKernel<Embedding, degree>::collect(VectorType    &vector,
+                                              const DofIndex dof_index,
+                                              const Action  &action)
+  {
+    const bool  copy   = !layouts_agree && dof_index == mesh_constraints;
+    VectorType &result = copy ? mesh_result : vector;
+    // Not left to the loop, which clears parts of the vector just in time: it
+    // tells by the layout of the vector which unknowns are touched when, and
+    // with one rank both sets of constraints have the same layout.
+    result = 0.;
+    action(result);
+    if (copy)
+      vector.copy_locally_owned_data_from(result);
   }
 
   template <typename Embedding, int degree>
@@ -260,20 +303,19 @@ namespace Signoton
                                             const DofIndex    dof_index)
   {
     double sum = 0.;
-    // Not left to the loop, which clears parts of the vector just in time: it
-    // tells by the layout of the vector which unknowns are touched when, and
-    // with one rank both sets of constraints have the same layout.
-    force = 0.;
     history.begin_trial();
-    data.template cell_loop<VectorType, VectorType>(
-      [&](const auto &, auto &dst, const auto &src, const Range &range) {
-        Cell cell(data, dof_index);
-        for_each_run(range, [&](const auto &law, const Range &run) {
-          sum += update_run<request>(law, cell, run, src, dst);
-        });
-      },
-      force,
-      displacement);
+    const VectorType &source = in_layout(displacement, dof_index);
+    collect(force, dof_index, [&](VectorType &result) {
+      data.template cell_loop<VectorType, VectorType>(
+        [&](const auto &, auto &dst, const auto &src, const Range &range) {
+          Cell cell(data, dof_index);
+          for_each_run(range, [&](const auto &law, const Range &run) {
+            sum += update_run<request>(law, cell, run, src, dst);
+          });
+        },
+        result,
+        source);
+    });
     return Utilities::MPI::sum(sum, space.communicator);
   }
 

@@ -58,10 +58,12 @@ namespace Signoton
              {"Follow waves", "Refine threshold", "Coarsen threshold"})
           drop("Refinement", key);
         drop("Reference solution", "Velocity");
+        drop("Output", "Probe line samples");
         return;
       }
     drop("Load steps");
     drop("Output", "Fields every");
+    drop("Output", "Newton history");
     for (const char *key : {"Cycles in first step",
                             "Cycles per step",
                             "Refine fraction",

@@ -108,6 +108,55 @@ namespace
           }
   }
 
+  /** A bar whose end is moved, as a displacement or a velocity:
+   *  $u=A\sin(2x)\sin(2t)$. Order 2, and explicit steps do the same. */
+  void
+  driven(Report &report)
+  {
+    report.out << "Driven bar: error in L2 of the displacement\n";
+    for (const std::string key : {"Displacement x", "Velocity x"})
+      for (const std::string scheme : {"implicit", "explicit"})
+        {
+          SceneFile file = standing_wave(2, false);
+          file.remove({"Boundaries", "right"}, "Symmetry");
+          file.set({"Boundaries", "right"},
+                   key,
+                   key[0] == 'D' ? "0.1*sin(2)*sin(2*t)" :
+                                   "0.2*sin(2)*cos(2*t)");
+          file.set({"Initial state"}, "Velocity", "0.2*sin(2*x); 0");
+          file.set({"Reference solution"},
+                   "Displacement",
+                   "0.1*sin(2*x)*sin(2*t); 0");
+          file.set({"Reference solution"},
+                   "Velocity",
+                   "0.2*sin(2*x)*cos(2*t); 0");
+          file.set({"Time integration"}, "Scheme", scheme);
+          std::vector<double> errors;
+          double              gap = 0.;
+          for (const int steps : {50, 100, 200})
+            {
+              if (scheme == "explicit" && steps < 200)
+                continue;
+              const auto lines =
+                run(file,
+                    {"Time integration/Time step=" +
+                     (scheme == "explicit" ? std::string("0.003") :
+                                             std::to_string(1.25 / steps))});
+              errors.push_back(value(lines.back(), "relative L2 error"));
+              gap = std::max(gap, std::abs(value(lines.back(), "energy gap")));
+            }
+          const std::string name = key + ", " + scheme;
+          report.out << name << ": " << std::setprecision(3);
+          for (const double e : errors)
+            report.out << e << ' ';
+          report.out << '\n';
+          report.require(name, errors.back(), 1e-3);
+          if (errors.size() == 3)
+            report.require_order(name, std::log2(errors[1] / errors[2]), 1.9);
+          report.require(name + ", energy gap", gap, 1e-8);
+        }
+  }
+
   /** Explicit and implicit runs of a scene, as relative differences of the
    *  numbers at its end. */
   void
@@ -177,6 +226,7 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   Report                           report;
   order(report);
+  driven(report);
   local_error(report);
   agreement(report,
             "signoton before a piston",

@@ -49,6 +49,10 @@ namespace Signoton
          const double      time_step,
          VectorType       &velocity);
 
+    /** Set the components with a prescribed displacement. */
+    void
+    place(VectorType &displacement, const double time) const;
+
     const std::vector<Node> &
     nodes() const
     {

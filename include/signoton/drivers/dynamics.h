@@ -192,6 +192,11 @@ namespace Signoton
     /** Velocities and forces at the start, on a mesh that suits them. */
     void
     start();
+
+    /** A displacement that does not begin at zero would be an impact whose
+     *  strength is that of the step: refuse it. */
+    void
+    refuse_jump();
     void
     set_initial_motion();
 

@@ -37,6 +37,7 @@ namespace Signoton
     double dissipated  = 0.; ///< by hinges and dampers in the step, in J
     double viscous     = 0.; ///< of that, by dampers
     double shock       = 0.; ///< by the shock viscosity in the step, in J
+    double closing     = 0.; ///< of the fastest cell, of the closed wave speed
     double quiet_cells = 0.; ///< that were skipped
   };
 
@@ -111,6 +112,12 @@ namespace Signoton
     /** A vector of unknowns with the ghosts that the sweeps need. */
     virtual void
     initialize_vector(VectorType &vector) const = 0;
+
+    /** A vector of unknowns with the ghosts that the constraints of the mesh
+     *  alone need. They may be more: hanging nodes hang on prescribed unknowns,
+     *  too. */
+    virtual void
+    initialize_mesh_vector(VectorType &vector) const = 0;
 
     /**
      * Internal force $\int\sigma_{n+1}:\varepsilon(v)$ at a displacement that
