@@ -47,7 +47,7 @@ namespace
       }
     // a tenth of a second is a number of steps
     std::ostringstream step;
-    step << std::ldexp(0.0125, 2 - int(level));
+    step << std::setprecision(17) << std::ldexp(0.1 / 12., 2 - int(level));
     Overrides overrides = {"Output/Probe points=",
                            "Output/Probe quantities=velocity",
                            "Output/Probe lines=" + lines,
