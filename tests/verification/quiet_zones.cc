@@ -2,7 +2,7 @@
 // round-off: elastic and granular, with and without history, from rest and from
 // a stressed state, on a uniform mesh and on one that follows the waves.
 
-#include "verification.h"
+#include "wave_scene.h"
 
 using namespace Verification;
 using Signoton::SceneFile;
@@ -14,30 +14,12 @@ namespace
   SceneFile
   block(const int dim, const unsigned int degree, const std::string &rheology)
   {
-    SceneFile file;
-    file.set({}, "Dimension", std::to_string(dim));
-    file.set({}, "Analysis", "dynamics");
-    file.set({"Geometry"}, "Generator", "subdivided_hyper_rectangle");
-    file.set({"Geometry"},
-             "Arguments",
-             dim == 2 ? "20, 20 : 0, 0 : 1, 1 : true" :
-                        "12, 6, 6 : 0, 0, 0 : 1, 0.5, 0.5 : true");
-    file.set({"Discretization"}, "Degree", std::to_string(degree));
-    const SceneFile::Path sand = {"Materials", "sand"};
-    file.set(sand, "Rheology", rheology);
-    file.set(sand, "Bulk modulus", "1");
-    file.set(sand, "Shear modulus", "0.6");
-    file.set(sand, "Density", "1");
-    if (rheology != "elastic")
-      {
-        file.set(sand, "Friction parameter", "0.6");
-        file.set(sand, "Binder", "proportional");
-        file.set(sand, "Binder ratio", "0.01");
-        if (rheology == "elastic granular")
-          file.set(sand, "Admissible set", "mises schleicher");
-        else
-          file.set(sand, "Shear strength", "0.01");
-      }
+    SceneFile file =
+      wave_box(dim,
+               degree,
+               dim == 2 ? "20, 20 : 0, 0 : 1, 1 : true" :
+                          "12, 6, 6 : 0, 0, 0 : 1, 0.5, 0.5 : true",
+               rheology);
     file.set({"Boundaries", "left"},
              "Pressure",
              "0.03*sin(pi*t/0.1)^2*(t < 0.1)*(y < 0.3)");

@@ -3,7 +3,7 @@
 // written does not depend on how often statistics are, also with dampers and
 // hinges, whose answer depends on the step.
 
-#include "verification.h"
+#include "wave_scene.h"
 
 using namespace Verification;
 using Signoton::SceneFile;
@@ -13,31 +13,13 @@ namespace
   SceneFile
   block(const int dim, const unsigned int degree, const std::string &rheology)
   {
-    SceneFile file;
-    file.set({}, "Dimension", std::to_string(dim));
-    file.set({}, "Analysis", "dynamics");
-    file.set({"Geometry"}, "Generator", "subdivided_hyper_rectangle");
-    file.set({"Geometry"},
-             "Arguments",
-             dim == 2 ? "8, 6 : 0, 0 : 1, 0.75 : true" :
-                        "4, 3, 3 : 0, 0, 0 : 1, 0.75, 0.75 : true");
+    SceneFile file =
+      wave_box(dim,
+               degree,
+               dim == 2 ? "8, 6 : 0, 0 : 1, 0.75 : true" :
+                          "4, 3, 3 : 0, 0, 0 : 1, 0.75, 0.75 : true",
+               rheology);
     file.set({"Geometry"}, "Distortion", "0.1");
-    file.set({"Discretization"}, "Degree", std::to_string(degree));
-    const SceneFile::Path sand = {"Materials", "sand"};
-    file.set(sand, "Rheology", rheology);
-    if (rheology.find('(') == std::string::npos)
-      {
-        file.set(sand, "Bulk modulus", "1");
-        file.set(sand, "Shear modulus", "0.6");
-      }
-    if (rheology.find("granular") != std::string::npos)
-      {
-        file.set(sand, "Friction parameter", "0.6");
-        file.set(sand, "Shear strength", "0.01");
-        file.set(sand, "Binder", "proportional");
-        file.set(sand, "Binder ratio", "0.05");
-      }
-    file.set(sand, "Density", "1");
     file.set({"Time integration"}, "End time", "0.8");
     return file;
   }
