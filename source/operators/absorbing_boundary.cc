@@ -45,6 +45,12 @@ namespace Signoton
     if (absorbing.empty())
       return;
 
+    boost::container::flat_map<types::material_id, std::array<Impedance, 2>>
+      impedances; // of closed and of loosened pores
+    for (const auto &material : materials)
+      impedances[material.id] = {
+        {impedance(material, false), impedance(material, true)}};
+
     // column d of the matrix of each node, in the form of a vector of unknowns
     std::vector<VectorType>     columns(dim, space.make_relevant_vector());
     const auto                  nodes_of = nodes_of_cell<dim>(space.fe);
@@ -68,14 +74,9 @@ namespace Signoton
             const auto found = absorbing.find(cell->face(f)->boundary_id());
             if (found == absorbing.end())
               continue;
-            const auto material =
-              std::find_if(materials.begin(),
-                           materials.end(),
-                           [&](const auto &m) {
-                             return m.id == cell->material_id();
-                           });
             const Impedance Z =
-              impedance(*material, found->second->absorbs_loosened());
+              impedances[cell->material_id()]
+                        [found->second->absorbs_loosened() ? 1 : 0];
             for (auto &column : cell_columns)
               column = 0.;
             values.reinit(cell, f);

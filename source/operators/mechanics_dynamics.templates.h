@@ -32,15 +32,16 @@ namespace Signoton
   template <typename Embedding, int degree>
   auto
   MechanicsKernel<Embedding, degree>::shock_of(
-    const Rheology::Material &material) const -> Shock
+    const unsigned int material) const -> Shock
   {
     if (!shock_viscosity)
       return {};
+    const double density = materials[material].density;
     return {Number(1. / time_step),
-            Number(material.density * shock_viscosity.linear *
-                   material.longitudinal_speed()),
-            Number(material.density * shock_viscosity.quadratic),
-            material.longitudinal_speed()};
+            Number(density * shock_viscosity.linear *
+                   longitudinal_speed[material]),
+            Number(density * shock_viscosity.quadratic),
+            longitudinal_speed[material]};
   }
 
   template <typename Embedding, int degree>
@@ -87,7 +88,7 @@ namespace Signoton
     Point<dim> place;
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
-        const auto        &material = materials[material_of_batch[batch]];
+        const unsigned int material = material_of_batch[batch];
         const unsigned int n_lanes =
           data.n_active_entries_per_cell_batch(batch);
         cell.reinit(batch);
@@ -105,7 +106,7 @@ namespace Signoton
                 set_lane(strain,
                          i,
                          value(initial_state.strain, points[i]) +
-                           material.elasticity().strain(stress));
+                           elasticity[material].strain(stress));
               }
             Rheology::Response<Number> response;
             std::visit(
@@ -117,7 +118,7 @@ namespace Signoton
                                                         next,
                                                         response);
               },
-              laws[material_of_batch[batch]]);
+              laws[material]);
             rest_energy[batch] += weight(cell, q) * response.stored_energy;
             rest_voids[batch] +=
               weight(cell, q) *
@@ -209,11 +210,20 @@ namespace Signoton
       },
       rest_force,
       unused);
-    // round-off of a state in equilibrium would wake all cells
-    const double noise = 1e-13 * rest_force.linfty_norm();
-    for (double &value : rest_force)
-      if (std::abs(value) < noise)
-        value = 0.;
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::balance_rest(const VectorType &external)
+  {
+    if (!initial_state)
+      return;
+    const double noise =
+      1e-13 * std::max(rest_force.linfty_norm(), external.linfty_norm());
+    for (unsigned int i = 0; i < rest_force.locally_owned_size(); ++i)
+      if (std::abs(rest_force.local_element(i) - external.local_element(i)) <
+          noise)
+        rest_force.local_element(i) = external.local_element(i);
   }
 
   template <typename Embedding, int degree>
@@ -234,7 +244,7 @@ namespace Signoton
     const Number   interior(Rheology::index(Rheology::Region::interior));
     const bool     at_rest = !rest_strain.empty();
     const bool     shock   = !dilatation.empty();
-    const Shock viscosity  = shock_of(materials[material_of_batch[run.first]]);
+    const Shock viscosity  = shock_of(material_of_batch[run.first]);
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         const unsigned int n_lanes =

@@ -57,6 +57,8 @@ namespace Signoton
     initialize_vector(VectorType &vector) const override;
     void
     initialize_mesh_vector(VectorType &vector) const override;
+    void
+    balance_rest(const VectorType &external) override;
     double
     internal_force(const VectorType &displacement,
                    VectorType       &force,
@@ -245,7 +247,7 @@ namespace Signoton
       }
     };
     Shock
-    shock_of(const Rheology::Material &material) const;
+    shock_of(const unsigned int material) const;
 
     /** Strains, stresses and energies of the initial state. */
     void
@@ -280,7 +282,10 @@ namespace Signoton
 
     const Space<dim>                      &space;
     const std::vector<Rheology::Material> &materials;
+    // by material, as to find them a scheme is read
     std::vector<Rheology::Law>             laws;
+    std::vector<Moduli>                    elasticity;
+    std::vector<double>                    longitudinal_speed; ///< in m/s
     double                                 time_step = 1.;
     typename Mechanics<dim>::InitialState  initial_state;
     ShockViscosity                         shock_viscosity;

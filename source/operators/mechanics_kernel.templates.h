@@ -21,9 +21,11 @@ namespace Signoton
           material_of_id.resize(materials[m].id + 1,
                                 numbers::invalid_unsigned_int);
         material_of_id[materials[m].id] = m;
+        elasticity.push_back(materials[m].elasticity());
+        longitudinal_speed.push_back(materials[m].longitudinal_speed());
         elastic_tangents.emplace_back();
         pack_tangent<Embedding, true>(
-          materials[m].elasticity().template tensor<Number>(),
+          elasticity.back().template tensor<Number>(),
           elastic_tangents.back().data());
       }
   }
@@ -333,7 +335,7 @@ namespace Signoton
     const bool             with_tangent =
       tangent_offset[run.second] > tangent_offset[run.first];
     const bool  shocked = !dilatation.empty();
-    const Shock shock   = shock_of(materials[material_of_batch[run.first]]);
+    const Shock shock   = shock_of(material_of_batch[run.first]);
     Rheology::Response<Number> response;
     auto   accepted = Rheology::make_history<Number>(law), next = accepted;
     double sum = 0.;

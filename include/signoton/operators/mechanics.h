@@ -119,6 +119,12 @@ namespace Signoton
     virtual void
     initialize_mesh_vector(VectorType &vector) const = 0;
 
+    /** Where loads balance the initial stress but for round-off, let them
+     *  balance it exactly in dynamic_force(), so that what is at rest stays
+     *  there. */
+    virtual void
+    balance_rest(const VectorType &external) = 0;
+
     /**
      * Internal force $\int\sigma_{n+1}:\varepsilon(v)$ at a displacement that
      * fulfills all constraints, and with it the trial history. Shock viscosity
