@@ -12,6 +12,7 @@ namespace Signoton
   Dynamics<dim>::Dynamics(Model<dim> &model)
     : model(model)
     , output(model)
+    , loads(model)
     , time(model.time_integration.start)
   {}
 
@@ -27,15 +28,7 @@ namespace Signoton
     supports.reinit(space, model.conditions);
     moved = supports.moved();
     absorbing.reinit(space, model.materials, model.conditions, supports);
-    surface_load.reinit(space, model.conditions);
-    point_forces.reinit(space, model.point_forces);
-    loads_vary = model.gravity_varies ||
-                 std::any_of(model.point_forces.begin(),
-                             model.point_forces.end(),
-                             [](const auto &p) { return p.varies; }) ||
-                 std::any_of(model.conditions.begin(),
-                             model.conditions.end(),
-                             [](const auto &c) { return c.varies(); });
+    loads.reinit();
     const bool remembers = model.mechanics->history_width() > 0;
     if (remembers && history_space)
       history_space->distribute_dofs();
@@ -53,8 +46,11 @@ namespace Signoton
                                &old_internal})
       model.mechanics->initialize_vector(*vector);
     model.mechanics->initialize_mesh_vector(external);
-    if (loads_vary)
-      old_external.reinit(external);
+    if (loads.vary())
+      {
+        old_external.reinit(external);
+        steady_load.reinit(external);
+      }
     if (!absorbing.empty())
       for (VectorType *vector : {&dashpots, &old_dashpots})
         vector->reinit(internal);
@@ -62,6 +58,13 @@ namespace Signoton
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       inverse_mass.local_element(i) =
         mass.local_element(i) > 0. ? 1. / mass.local_element(i) : 0.;
+    add_loads(LoadKind::steady, external);
+    if (loads.vary())
+      {
+        steady_load = external;
+        add_loads(LoadKind::varying, external);
+      }
+    model.mechanics->balance_rest(external);
     if (model.wave_refinement.is_on())
       rest_energy = energy_at_rest();
   }
@@ -83,7 +86,6 @@ namespace Signoton
             velocity.local_element(i) = 0.;
         supports.project(velocity);
       }
-    evaluate_loads();
     evaluate_dashpots();
     const DynamicSums own =
       model.mechanics->dynamic_force(displacement, internal, true, -1.);
@@ -98,20 +100,22 @@ namespace Signoton
 
   template <int dim>
   void
-  Dynamics<dim>::evaluate_loads()
+  Dynamics<dim>::add_loads(const LoadKind kind, VectorType &force)
   {
     const auto timer = model.ledger.time("external force");
     model.set_time(time);
-    external = 0.;
-    if (model.gravity)
-      add_body_force(*model.space,
-                     model.materials,
-                     *model.gravity,
-                     model.space->mesh_constraints,
-                     external);
-    surface_load.add(model.space->mesh_constraints, external);
-    point_forces.add(model.space->mesh_constraints, external);
-    external.compress(VectorOperation::add);
+    loads.add(kind, model.space->mesh_constraints, force);
+    force.compress(VectorOperation::add);
+  }
+
+  template <int dim>
+  void
+  Dynamics<dim>::evaluate_loads()
+  {
+    if (!loads.vary())
+      return;
+    external = steady_load;
+    add_loads(LoadKind::varying, external);
   }
 
   template <int dim>
@@ -346,7 +350,6 @@ namespace Signoton
         for (VectorType *vector :
              {&displacement, &velocity, &acceleration, &internal})
           vector->local_element(i) = 0.;
-    evaluate_loads();
     evaluate_dashpots();
     model.mechanics->remember_dilatation(displacement);
     output.resume(checkpoint, n_reported);

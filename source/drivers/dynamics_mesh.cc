@@ -174,7 +174,6 @@ namespace Signoton
     receipt.stored = sum<1>({{own.stored}})[0];
     balance_transfer(missing, before);
 
-    evaluate_loads();
     evaluate_dashpots();
     accelerate(0.);
     choose_step();

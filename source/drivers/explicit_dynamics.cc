@@ -121,7 +121,7 @@ namespace Signoton
   {
     std::pair<double, double> before{0., 0.};
     internal.swap(old_internal);
-    if (loads_vary)
+    if (loads.vary())
       external.swap(old_external);
     if (!absorbing.empty())
       dashpots.swap(old_dashpots);
@@ -153,8 +153,7 @@ namespace Signoton
     --steps_left;
     ++n_steps;
     time = model.time_integration.end - steps_left * time_step;
-    if (loads_vary)
-      this->evaluate_loads();
+    this->evaluate_loads();
     DynamicSums own;
     {
       const auto timer = model.ledger.time("constitutive update");
@@ -188,7 +187,7 @@ namespace Signoton
     const double       dt = time_step;
     const unsigned int n  = displacement.locally_owned_size();
     // work of the mean of the forces before and after
-    const VectorType &external_before = loads_vary ? old_external : external;
+    const VectorType &external_before = loads.vary() ? old_external : external;
     double inner = 0., outer = 0., damped = 0., half_after = 0., kinetic = 0.;
     for (unsigned int i = 0; i < n; ++i)
       {

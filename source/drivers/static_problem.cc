@@ -22,8 +22,6 @@ namespace Signoton
     const auto &owned = space.dof_handler.locally_owned_dofs();
     model.mechanics->initialize_vector(load);
     model.mechanics->initialize_mesh_vector(load_of_mesh);
-    surface_load.reinit(space, model.conditions);
-    point_forces.reinit(space, model.point_forces);
 
     // The pattern has the rows and columns of boundary conditions, too: they
     // may eliminate one unknown of a node only, and multigrid aggregates whole
@@ -57,7 +55,7 @@ namespace Signoton
 
   template <int dim>
   void
-  StaticProblem<dim>::update_loads()
+  StaticProblem<dim>::update_loads(const Loads<dim> &loads)
   {
     const auto timer = model.ledger.time("external force");
     auto      &space = *model.space;
@@ -65,11 +63,8 @@ namespace Signoton
     const auto collect = [&](const AffineConstraints<double> &constraints,
                              VectorType                      &force) {
       force = 0.;
-      if (model.gravity)
-        add_body_force(
-          space, model.materials, *model.gravity, constraints, force);
-      surface_load.add(constraints, force);
-      point_forces.add(constraints, force);
+      for (const LoadKind kind : {LoadKind::steady, LoadKind::varying})
+        loads.add(kind, constraints, force);
       force.compress(VectorOperation::add);
     };
     collect(space.constraints, load);

@@ -8,6 +8,7 @@ namespace Signoton
   template <int dim>
   Statics<dim>::Statics(Model<dim> &model)
     : model(model)
+    , loads(model)
     , problem(model)
     , newton(model.newton)
     , results(model)
@@ -24,6 +25,7 @@ namespace Signoton
       model.space->distribute_dofs();
       model.space->update_constraints(model.conditions);
       model.mechanics->reinit();
+      loads.reinit();
     }
     problem.reinit();
     if (model.mechanics->history_width() > 0)
@@ -43,7 +45,7 @@ namespace Signoton
   {
     model.set_time(new_time);
     model.mechanics->set_time_step(new_time - time);
-    problem.update_loads();
+    problem.update_loads(loads);
     if (predict)
       {
         VectorType lift(u);

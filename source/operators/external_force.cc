@@ -82,6 +82,7 @@ namespace Signoton
             cell->get_dof_indices(dofs);
             Face face;
             face.condition = found->second;
+            face.kind      = load_kind(found->second->varies());
             face.points    = values.get_quadrature_points();
             face.normals   = values.get_normal_vectors();
             std::vector<unsigned int> on_face;
@@ -106,12 +107,15 @@ namespace Signoton
 
   template <int dim>
   void
-  SurfaceLoad<dim>::add(const AffineConstraints<double> &constraints,
+  SurfaceLoad<dim>::add(const LoadKind                   kind,
+                        const AffineConstraints<double> &constraints,
                         VectorType                      &force) const
   {
     Vector<double> face_force;
     for (const Face &face : faces)
       {
+        if (face.kind != kind)
+          continue;
         face_force.reinit(face.dofs.size());
         for (unsigned int q = 0; q < face.points.size(); ++q)
           {

@@ -76,18 +76,23 @@ namespace Signoton
 
   template <int dim>
   void
-  PointForces<dim>::add(const AffineConstraints<double> &constraints,
+  PointForces<dim>::add(const LoadKind                   kind,
+                        const AffineConstraints<double> &constraints,
                         VectorType                      &force) const
   {
-    if (list == nullptr || list->empty())
+    const auto is_wanted = [&](const PointForce<dim> &point) {
+      return load_kind(point.varies) == kind;
+    };
+    if (list == nullptr || std::none_of(list->begin(), list->end(), is_wanted))
       return;
     std::vector<Tensor<1, dim>> values, buffer;
     if (Utilities::MPI::this_mpi_process(space->communicator) == 0)
       for (const auto &point : *list)
         {
           values.emplace_back();
-          for (unsigned int d = 0; d < dim; ++d)
-            values.back()[d] = point.force->value(point.place, d);
+          if (is_wanted(point))
+            for (unsigned int d = 0; d < dim; ++d)
+              values.back()[d] = point.force->value(point.place, d);
         }
     const auto                          &fe = space->fe;
     Vector<double>                       cell_force(fe.n_dofs_per_cell());

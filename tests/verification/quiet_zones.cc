@@ -97,6 +97,22 @@ main(int argc, char **argv)
     compare(report, "under pressure", file);
   }
   {
+    // what the weight adds to the stress balances it to round-off only
+    SceneFile         file     = block(2, 1, "elastic plastic granular");
+    const std::string pressure = "0.01 + 0.05*(1 - y)";
+    file.set({"Loads"}, "Gravity", "0; -0.05");
+    file.set({"Initial state"},
+             "Stress",
+             "-(" + pressure + "); -(" + pressure + "); -(" + pressure +
+               "); 0");
+    for (const std::string side : {"left", "top"})
+      file.set({"Boundaries", side},
+               "Pressure",
+               side == "top" ? pressure :
+                               pressure + " + 0.03*sin(pi*t/0.1)^2*(t < 0.1)");
+    compare(report, "under weight", file);
+  }
+  {
     SceneFile file = block(2, 1, "elastic granular");
     file.set({"Refinement"}, "Follow waves", "true");
     file.set({"Refinement"}, "Maximum level", "2");

@@ -1,10 +1,10 @@
 #ifndef signoton_drivers_dynamics_h
 #define signoton_drivers_dynamics_h
 
+#include <signoton/drivers/loads.h>
 #include <signoton/drivers/receipt.h>
 #include <signoton/drivers/run_output.h>
 #include <signoton/operators/absorbing_boundary.h>
-#include <signoton/operators/external_force.h>
 
 namespace Signoton
 {
@@ -58,7 +58,7 @@ namespace Signoton
     virtual std::vector<std::pair<std::string, double *>>
     numbers_to_keep();
 
-    /** The loads at the present time. */
+    /** The loads at the present time, by those that vary. */
     void
     evaluate_loads();
 
@@ -125,14 +125,13 @@ namespace Signoton
     RunOutput<dim>            output;
     Supports<dim>             supports;
     AbsorbingBoundary<dim>    absorbing;
-    SurfaceLoad<dim>          surface_load;
-    PointForces<dim>          point_forces;
+    Loads<dim>                loads;
     std::vector<unsigned int> moved; ///< unknowns with a prescribed motion
-    bool                      loads_vary = false; ///< in time
 
     VectorType   displacement, velocity, acceleration;
     VectorType   mass, inverse_mass;
     VectorType   internal, external, dashpots;
+    VectorType   steady_load; ///< part of the external one, if not all of it
     VectorType   old_internal, old_external, old_dashpots;
     Receipt      receipt;
     double       time      = 0.;
@@ -188,6 +187,10 @@ namespace Signoton
       return model.wave_refinement.is_on() && !is_finished() &&
              n_steps % model.wave_refinement.interval() == 0;
     }
+
+    /** Add the loads of a kind at the present time. */
+    void
+    add_loads(const LoadKind kind, VectorType &force);
 
     /** Velocities and forces at the start, on a mesh that suits them. */
     void

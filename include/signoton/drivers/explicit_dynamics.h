@@ -47,7 +47,7 @@ namespace Signoton
     using Dynamics<dim>::supports;
     using Dynamics<dim>::absorbing;
     using Dynamics<dim>::moved;
-    using Dynamics<dim>::loads_vary;
+    using Dynamics<dim>::loads;
     using Dynamics<dim>::displacement;
     using Dynamics<dim>::velocity;
     using Dynamics<dim>::acceleration;

@@ -1,8 +1,7 @@
 #ifndef signoton_drivers_static_problem_h
 #define signoton_drivers_static_problem_h
 
-#include <signoton/drivers/model.h>
-#include <signoton/operators/external_force.h>
+#include <signoton/drivers/loads.h>
 
 namespace Signoton
 {
@@ -22,7 +21,7 @@ namespace Signoton
 
     /** Take the loads and constraints of the time last set in the model. */
     void
-    update_loads();
+    update_loads(const Loads<dim> &loads);
 
     double
     evaluate(const VectorType &u,
@@ -76,8 +75,6 @@ namespace Signoton
     void
     prepare(const double regularization);
 
-    SurfaceLoad<dim>                 surface_load;
-    PointForces<dim>                 point_forces;
     VectorType                       load;
     VectorType                       load_of_mesh;
     TrilinosWrappers::SparseMatrix   matrix;

@@ -61,6 +61,7 @@ namespace Signoton
     is_last_step() const;
 
     Model<dim>                      &model;
+    Loads<dim>                       loads;
     StaticProblem<dim>               problem;
     Newton                           newton;
     std::unique_ptr<PointSpace<dim>> history_space;

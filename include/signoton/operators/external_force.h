@@ -6,6 +6,19 @@
 
 namespace Signoton
 {
+  /** Loads that do not depend on time are integrated once. */
+  enum class LoadKind
+  {
+    steady,
+    varying
+  };
+
+  inline LoadKind
+  load_kind(const bool varies)
+  {
+    return varies ? LoadKind::varying : LoadKind::steady;
+  }
+
   /** Add $\int\rho g\cdot v$ of all materials with a density, at the time last
    *  set, to @p force in N. Constrained entries are condensed by
    *  @p constraints. The caller compresses. */
@@ -31,15 +44,18 @@ namespace Signoton
     void
     reinit(const Space<dim> &space, const BoundaryConditions<dim> &conditions);
 
-    /** Add $\int t\cdot v$ at the time last set to @p force in N, as
-     *  add_body_force() does. */
+    /** Add $\int t\cdot v$ of the loads of a kind at the time last set to
+     *  @p force in N, as add_body_force() does. */
     void
-    add(const AffineConstraints<double> &constraints, VectorType &force) const;
+    add(const LoadKind                   kind,
+        const AffineConstraints<double> &constraints,
+        VectorType                      &force) const;
 
   private:
     struct Face
     {
       const BoundaryCondition<dim>        *condition;
+      LoadKind                             kind;
       std::vector<types::global_dof_index> dofs;
       std::vector<unsigned int>            component; ///< of the dofs
       std::vector<Point<dim>>              points;

@@ -1,7 +1,7 @@
 #ifndef signoton_operators_point_forces_h
 #define signoton_operators_point_forces_h
 
-#include <signoton/discretization/space.h>
+#include <signoton/operators/external_force.h>
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>
 
@@ -48,9 +48,12 @@ namespace Signoton
     void
     reinit(const Space<dim> &space, const List &list);
 
-    /** Add the forces at the time last set. The caller compresses. */
+    /** Add the forces of a kind at the time last set. The caller
+     *  compresses. */
     void
-    add(const AffineConstraints<double> &constraints, VectorType &force) const;
+    add(const LoadKind                   kind,
+        const AffineConstraints<double> &constraints,
+        VectorType                      &force) const;
 
   private:
     const Space<dim>                                           *space = nullptr;
