@@ -110,36 +110,32 @@ namespace Signoton
       const VectorType           &stress;
       std::vector<Vector<double>> raw;
     };
-
-    /** The tractions that a boundary condition leaves unbalanced. What moves a
-     *  boundary, or absorbs, takes any. */
-    template <int dim>
-    void
-    subtract_given(const BoundaryCondition<dim> *condition,
-                   const FEFaceValuesBase<dim>  &values,
-                   std::vector<Tensor<1, dim>>  &traction)
-    {
-      if (condition == nullptr)
-        return;
-      for (unsigned int q = 0; q < traction.size(); ++q)
-        {
-          const auto &p = values.quadrature_point(q);
-          const auto &n = values.normal_vector(q);
-          if (condition->pressure)
-            traction[q] += condition->pressure->value(p) * n;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              if (condition->traction)
-                traction[q][d] -= condition->traction->value(p, d);
-              if (condition->displacement[d] || condition->velocity[d] ||
-                  condition->absorbs())
-                traction[q][d] = 0.;
-            }
-          if (condition->symmetry)
-            traction[q] -= (traction[q] * n) * n;
-        }
-    }
   } // namespace
+
+  template <int dim>
+  Tensor<1, dim>
+  missing_traction(const BoundaryCondition<dim> *condition,
+                   const Point<dim>             &p,
+                   const Tensor<1, dim>         &normal,
+                   const Tensor<1, dim>         &traction)
+  {
+    Tensor<1, dim> missing = traction;
+    if (condition == nullptr)
+      return missing;
+    if (condition->pressure)
+      missing += condition->pressure->value(p) * normal;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        if (condition->traction)
+          missing[d] -= condition->traction->value(p, d);
+        if (condition->displacement[d] || condition->velocity[d] ||
+            condition->absorbs())
+          missing[d] = 0.;
+      }
+    if (condition->symmetry)
+      missing -= (missing * normal) * normal;
+    return missing;
+  }
 
   template <int dim>
   Vector<float>
@@ -198,9 +194,13 @@ namespace Signoton
                   here.reinit(cell, f);
                   mine.evaluate(here, here.get_normal_vectors());
                   const auto found = by_id.find(cell->face(f)->boundary_id());
-                  subtract_given(found == by_id.end() ? nullptr : found->second,
-                                 here,
-                                 mine.values);
+                  for (unsigned int q = 0; q < mine.values.size(); ++q)
+                    mine.values[q] =
+                      missing_traction(found == by_id.end() ? nullptr :
+                                                              found->second,
+                                       here.quadrature_point(q),
+                                       here.normal_vector(q),
+                                       mine.values[q]);
                   sum += 0.5 * h * square(here, mine.values, none);
                 }
               else if (cell->face(f)->has_children())
@@ -366,18 +366,23 @@ namespace Signoton
     return refined > 0. || coarsened > 0.01 * cells;
   }
 
-#define INSTANTIATE(dim)                                                 \
-  template Vector<float> Refinement::traction_jumps<dim>(                \
-    const Space<dim> &,                                                  \
-    const PointSpace<dim> &,                                             \
-    const VectorType &,                                                  \
-    const BoundaryConditions<dim> &,                                     \
-    const boost::container::flat_map<types::material_id, double> &);     \
-  template bool Refinement::mark<dim>(Space<dim> &,                      \
+#define INSTANTIATE(dim)                                                           \
+  template Vector<float> Refinement::traction_jumps<dim>(                          \
+    const Space<dim> &,                                                            \
+    const PointSpace<dim> &,                                                       \
+    const VectorType &,                                                            \
+    const BoundaryConditions<dim> &,                                               \
+    const boost::container::flat_map<types::material_id, double> &);               \
+  template bool           Refinement::mark<dim>(Space<dim> &,                      \
                                       Vector<float> &,                   \
                                       const std::vector<unsigned int> &, \
                                       const std::vector<bool> &) const;  \
-  template void keep_coarsenable<dim>(                                   \
+  template Tensor<1, dim> missing_traction<dim>(                                   \
+    const BoundaryCondition<dim> *,                                                \
+    const Point<dim> &,                                                            \
+    const Tensor<1, dim> &,                                                        \
+    const Tensor<1, dim> &);                                                       \
+  template void keep_coarsenable<dim>(                                             \
     parallel::distributed::Triangulation<dim> &, const unsigned int);
 
   INSTANTIATE(2)

@@ -22,8 +22,9 @@ namespace Signoton
     handler.add_parameter("Refine threshold",
                           refine_threshold,
                           "Refine cells to whose neighbors the traction jumps "
-                          "by more than this part of the largest jump so "
-                          "far.",
+                          "by more than this part of the largest jump. Waves "
+                          "that have faded to a hundredth of the largest so "
+                          "far are let go.",
                           Patterns::Double(0., 1.));
     handler.add_parameter("Coarsen threshold",
                           coarsen_threshold,
@@ -75,93 +76,202 @@ namespace Signoton
 
   namespace
   {
-    /**
-     * How far it still is to go, for cells that are within @p distance of the
-     * marked ones; negative for others. By way of centers and vertices of
-     * cells, on any number of ranks.
-     */
+    /** Where a wave may come from, and how far it gets, in m. */
     template <int dim>
-    std::vector<double>
-    reach(const parallel::distributed::Triangulation<dim> &mesh,
-          const std::vector<bool>                         &marked,
-          const double                                     distance)
+    struct Origin
     {
-      std::vector<double> of_cell(mesh.n_active_cells(), -1.);
-      for (const auto &cell : mesh.active_cell_iterators())
-        if (cell->is_locally_owned() && marked[cell->active_cell_index()])
-          of_cell[cell->active_cell_index()] =
-            distance + 0.5 * cell->diameter();
-      std::vector<double> of_vertex(mesh.n_vertices());
-      for (bool changes = true; changes;)
-        {
-          GridTools::exchange_cell_data_to_ghosts<double>(
-            mesh,
-            [&](const auto &cell) {
-              return std_cxx17::optional<double>(
-                of_cell[cell->active_cell_index()]);
-            },
-            [&](const auto &cell, const double value) {
-              of_cell[cell->active_cell_index()] = value;
-            });
-          std::fill(of_vertex.begin(), of_vertex.end(), -1.);
-          for (const auto &cell : mesh.active_cell_iterators())
-            if (!cell->is_artificial())
+      Point<dim> center;
+      double     radius = -1.; ///< negative for none
+
+      double
+      to_go(const Point<dim> &p) const
+      {
+        return radius - center.distance(p);
+      }
+
+      /** Whether a wave from here has more to go at a point. One of two equals
+       *  is chosen by its place, to be the same on any number of ranks. */
+      bool
+      is_better(const Origin &other, const Point<dim> &p) const
+      {
+        const double mine   = to_go(p);
+        const double others = other.to_go(p);
+        if (other.radius < 0. || mine > others)
+          return true;
+        return !(mine < others) &&
+               std::lexicographical_compare(center.begin_raw(),
+                                            center.end_raw(),
+                                            other.center.begin_raw(),
+                                            other.center.end_raw());
+      }
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &center &radius;
+      }
+    };
+
+    /** What waves from some cells can reach. */
+    template <int dim>
+    class Reach
+    {
+    public:
+      explicit Reach(const parallel::distributed::Triangulation<dim> &mesh)
+        : mesh(mesh)
+        , center(mesh.n_active_cells())
+        , vertices(mesh.n_active_cells())
+      {
+        for (const auto &cell : mesh.active_cell_iterators())
+          if (!cell->is_artificial())
+            {
+              const unsigned int i = cell->active_cell_index();
+              (cell->is_locally_owned() ? own : ghosts).push_back(i);
+              center[i] = cell->center();
               for (const auto v : cell->vertex_indices())
-                {
-                  double &value = of_vertex[cell->vertex_index(v)];
-                  value         = std::max(value,
-                                   of_cell[cell->active_cell_index()] -
-                                     cell->center().distance(cell->vertex(v)));
-                }
-          bool own = false;
-          for (const auto &cell : mesh.active_cell_iterators())
-            if (cell->is_locally_owned())
-              {
-                double &value = of_cell[cell->active_cell_index()];
-                for (const auto v : cell->vertex_indices())
-                  {
-                    const double from = of_vertex[cell->vertex_index(v)];
-                    if (from < 0.)
-                      continue;
-                    // a cell that a wave enters is reached, however large
-                    const double now =
-                      std::max(0.,
-                               from - cell->center().distance(cell->vertex(v)));
-                    if (now > value + 1e-9 * distance)
+                vertices[i][v] = cell->vertex_index(v);
+            }
+      }
+
+      /** The cells that are touched from own cells within their distances, by
+       *  active cell index; those with a negative one are no sources. On any
+       *  number of ranks. */
+      std::vector<bool>
+      operator()(const std::vector<double> &distance)
+      {
+        const auto               &points = mesh.get_vertices();
+        std::vector<Origin<dim>>  of_cell(distance.size());
+        std::vector<Origin<dim>>  of_vertex(points.size());
+        std::vector<unsigned int> news; // cells
+        for (const unsigned int i : own)
+          if (distance[i] >= 0.)
+            {
+              of_cell[i] = {center[i],
+                            distance[i] +
+                              center[i].distance(points[vertices[i][0]])};
+              news.push_back(i);
+            }
+        std::vector<bool> is_new(points.size());
+        for (bool changes = true; changes;)
+          {
+            GridTools::exchange_cell_data_to_ghosts<Origin<dim>>(
+              mesh,
+              [&](const auto &cell) {
+                return std_cxx17::optional<Origin<dim>>(
+                  of_cell[cell->active_cell_index()]);
+              },
+              [&](const auto &cell, const Origin<dim> &origin) {
+                of_cell[cell->active_cell_index()] = origin;
+              });
+            for (const auto *cells : {&news, &ghosts})
+              for (const unsigned int i : *cells)
+                if (of_cell[i].radius >= 0.)
+                  for (const unsigned int v : vertices[i])
+                    if (of_cell[i].to_go(points[v]) >= 0. &&
+                        of_cell[i].is_better(of_vertex[v], points[v]))
                       {
-                        value = now;
-                        own   = true;
+                        of_vertex[v] = of_cell[i];
+                        is_new[v]    = true;
                       }
-                  }
+            news.clear();
+            for (const unsigned int i : own)
+              {
+                bool better = false;
+                for (const unsigned int v : vertices[i])
+                  if (is_new[v] &&
+                      of_vertex[v].is_better(of_cell[i], center[i]))
+                    {
+                      of_cell[i] = of_vertex[v];
+                      better     = true;
+                    }
+                if (better)
+                  news.push_back(i);
               }
-          changes =
-            Utilities::MPI::max(own ? 1U : 0U, mesh.get_communicator()) > 0;
-        }
-      return of_cell;
-    }
+            is_new.assign(points.size(), false);
+            changes = Utilities::MPI::max(news.empty() ? 0U : 1U,
+                                          mesh.get_communicator()) > 0;
+          }
+        std::vector<bool> reached(of_cell.size());
+        for (unsigned int i = 0; i < reached.size(); ++i)
+          reached[i] = of_cell[i].radius >= 0.;
+        return reached;
+      }
+
+    private:
+      static constexpr unsigned int n_vertices =
+        GeometryInfo<dim>::vertices_per_cell;
+
+      const parallel::distributed::Triangulation<dim>  &mesh;
+      std::vector<unsigned int>                         own, ghosts;
+      std::vector<Point<dim>>                           center;
+      std::vector<std::array<unsigned int, n_vertices>> vertices;
+    };
+
+    /** Coarsening that is worth a new mesh, as a part of all cells. */
+    constexpr double worthwhile = 0.1;
+
+    /** Waves that have faded to this part of the largest are let go. */
+    constexpr double faded = 0.01;
   } // namespace
+
+  template <int dim>
+  std::vector<unsigned int>
+  WaveRefinement::needed_levels(
+    const parallel::distributed::Triangulation<dim> &mesh,
+    const std::vector<double>                       &jump,
+    const double                                     threshold,
+    const double                                     distance) const
+  {
+    std::vector<unsigned int> wanted(jump.size(), 0), needed(jump.size(), 0);
+    unsigned int              finest = 0;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (const unsigned int i = cell->active_cell_index();
+          cell->is_locally_owned() && jump[i] >= threshold)
+        {
+          // where the solution is smooth the jump goes with the size
+          const double more =
+            std::ceil(std::log2(1.0001 * jump[i] / threshold));
+          wanted[i] =
+            std::min<double>(maximum_level, cell->level() + std::max(more, 0.));
+          finest = std::max(finest, wanted[i]);
+        }
+    finest = Utilities::MPI::max(finest, mesh.get_communicator());
+    // Cells are refined by one level at a time: the coarser they are, the earlier.
+    Reach<dim>          reach(mesh);
+    std::vector<double> from(jump.size());
+    for (unsigned int level = finest; level > minimum_level; --level)
+      {
+        for (unsigned int i = 0; i < from.size(); ++i)
+          from[i] =
+            wanted[i] >= level ? (1. + wanted[i] - level) * distance : -1.;
+        const std::vector<bool> reached = reach(from);
+        for (unsigned int i = 0; i < needed.size(); ++i)
+          if (reached[i])
+            needed[i] = std::max(needed[i], level);
+      }
+    return needed;
+  }
 
   template <int dim>
   bool
   WaveRefinement::mark(Space<dim>          &space,
-                       const Vector<float> &indicators,
+                       std::vector<double> &jump,
                        const double         distance,
-                       double              &largest) const
+                       double              &largest_of_run) const
   {
-    auto &mesh = space.mesh;
-    // jumps themselves, whatever the size of the cell
-    std::vector<double> jump(mesh.n_active_cells(), 0.);
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (cell->is_locally_owned())
+    auto  &mesh    = space.mesh;
+    double largest = 0.;
+    for (double &value : jump)
+      if (value > 0.)
         {
-          const unsigned int i = cell->active_cell_index();
-          jump[i] = std::sqrt(indicators[i] / std::pow(cell->diameter(), dim));
           // half percent steps: equal on any number of ranks
-          if (jump[i] > 0.)
-            jump[i] = std::exp(std::round(200. * std::log(jump[i])) / 200.);
-          largest = std::max(largest, jump[i]);
+          value   = std::exp(std::round(200. * std::log(value)) / 200.);
+          largest = std::max(largest, value);
         }
-    largest = Utilities::MPI::max(largest, space.communicator);
+    largest        = Utilities::MPI::max(largest, space.communicator);
+    largest_of_run = std::max(largest_of_run, largest);
+    largest        = std::max(largest, faded * largest_of_run);
     if (!(largest > 0.))
       return false;
 
@@ -169,10 +279,8 @@ namespace Signoton
     double n_refined = 0., n_coarsened = 0.;
     while (true)
       {
-        std::vector<bool> marked(jump.size());
-        for (unsigned int i = 0; i < jump.size(); ++i)
-          marked[i] = jump[i] >= threshold * largest;
-        const std::vector<double> to_go = reach(mesh, marked, distance);
+        const std::vector<unsigned int> needed =
+          needed_levels(mesh, jump, threshold * largest, distance);
         for (const auto &cell : mesh.active_cell_iterators())
           {
             cell->clear_refine_flag();
@@ -180,7 +288,8 @@ namespace Signoton
           }
         for (const auto &cell : mesh.active_cell_iterators())
           if (cell->is_locally_owned() &&
-              to_go[cell->active_cell_index()] < 0. &&
+              needed[cell->active_cell_index()] <
+                static_cast<unsigned int>(cell->level()) &&
               jump[cell->active_cell_index()] < coarsen_threshold * largest)
             cell->set_coarsen_flag();
         keep_coarsenable(mesh, minimum_level);
@@ -189,8 +298,8 @@ namespace Signoton
           if (cell->is_locally_owned())
             {
               n_coarsened += cell->coarsen_flag_set() ? 1. : 0.;
-              if (to_go[cell->active_cell_index()] >= 0. &&
-                  cell->level() < static_cast<int>(maximum_level))
+              if (needed[cell->active_cell_index()] >
+                  static_cast<unsigned int>(cell->level()))
                 {
                   cell->set_refine_flag();
                   n_refined += 1.;
@@ -214,13 +323,15 @@ namespace Signoton
             break;
           }
       }
-    return n_refined + n_coarsened > 0.;
+    // a new mesh costs many steps: to coarsen alone should be worth it
+    return n_refined > 0. ||
+           n_coarsened > worthwhile * mesh.n_global_active_cells();
   }
 
 #define INSTANTIATE(dim)                                                      \
   template double WaveRefinement::finest_part<dim>(const Space<dim> &) const; \
   template bool   WaveRefinement::mark<dim>(Space<dim> &,                     \
-                                          const Vector<float> &,            \
+                                          std::vector<double> &,            \
                                           const double,                     \
                                           double &) const;
 

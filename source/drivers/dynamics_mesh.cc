@@ -1,4 +1,5 @@
 #include <signoton/discretization/momentum_transfer.h>
+#include <signoton/discretization/stress_jumps.h>
 #include <signoton/drivers/dynamics.h>
 #include <signoton/operators/lumped_mass.h>
 
@@ -76,28 +77,47 @@ namespace Signoton
         speed = std::max(speed, material.longitudinal_speed());
         shear_modulus[material.id] = material.elasticity().shear;
       }
-    // Waves that are only in the velocity yet, and loads that only begin, are
-    // seen by going ahead.
-    VectorType u(displacement), v(velocity);
-    supports.move(displacement, time, ahead, v);
-    u.add(ahead, v);
+    // Pulses may be shorter than the time to the next look.
+    constexpr unsigned int n_times = 8;
+    const auto             look_at = [&](const unsigned int i) {
+      return time + ahead * (i + 1) / n_times;
+    };
+    // Waves that are only in the velocity yet are seen in the strain of the next
+    // step, which has their amplitude.
+    VectorType u(displacement), v(velocity), moved_v(velocity);
+    for (unsigned int i = 0; i < n_times && !moved.empty(); ++i)
+      {
+        const double before = look_at(i) - time_step;
+        supports.place(u, before);
+        supports.move(u, before, time_step, moved_v);
+        for (const unsigned int m : moved)
+          if (std::abs(moved_v.local_element(m)) > std::abs(v.local_element(m)))
+            v.local_element(m) = moved_v.local_element(m);
+      }
+    u = displacement;
+    u.add(time_step, v);
     space.mesh_constraints.distribute(u);
-    model.set_time(time + ahead);
-    const PointSpace<dim> points(space, dim * (dim + 1) / 2);
-    VectorType            stress = points.make_relevant_vector();
-    model.mechanics->set_time_step(ahead);
-    model.mechanics->stress_field(u, points, stress);
     model.mechanics->set_time_step(time_step);
-    stress.update_ghost_values();
-    const bool changes =
-      model.wave_refinement.mark(space,
-                                 Refinement::traction_jumps(space,
-                                                            points,
-                                                            stress,
-                                                            model.conditions,
-                                                            shear_modulus),
-                                 speed * ahead,
-                                 largest_jump);
+    const auto averages = model.mechanics->cell_averages(u);
+    std::vector<SymmetricTensor<2, dim>> stress(averages.size());
+    for (std::size_t cell = 0; cell < stress.size(); ++cell)
+      for (unsigned int c = 0; c < stress[cell].n_independent_components; ++c)
+        stress[cell].access_raw_entry(c) =
+          averages[cell].stress[dim == 2 && c == 2 ? 3 : c];
+    StressJumps<dim> jumps(space,
+                           stress,
+                           model.initial_stress.get(),
+                           shear_modulus);
+    jumps.add_neighbors();
+    for (unsigned int i = loads.vary() ? 0 : n_times - 1; i < n_times; ++i)
+      {
+        model.set_time(look_at(i));
+        jumps.add_boundary(model.conditions);
+      }
+    const bool changes = model.wave_refinement.mark(space,
+                                                    jumps.values,
+                                                    speed * ahead,
+                                                    largest_jump);
     model.set_time(time);
     return changes;
   }

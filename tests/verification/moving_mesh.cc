@@ -61,8 +61,8 @@ namespace
     file.set({"Refinement"}, "Follow waves", "true");
     file.set({"Refinement"}, "Every", "5");
     file.set({"Refinement"}, "Maximum level", dim == 3 ? "2" : "3");
-    file.set({"Refinement"}, "Refine threshold", "0.2");
-    file.set({"Refinement"}, "Coarsen threshold", "0.1");
+    file.set({"Refinement"}, "Refine threshold", "0.5");
+    file.set({"Refinement"}, "Coarsen threshold", "0.25");
     return file;
   }
 
@@ -169,8 +169,8 @@ namespace
   }
 
   /** The pulse of the shipped scene before and in the loosened inclusion, on
-   *  its moving mesh and on one of finest cells: the finer the thresholds, the
-   *  nearer. */
+   *  its moving mesh and on one of finest cells: near, and the nearer the finer
+   *  the thresholds. */
   void
   against_uniform(Report &report)
   {
@@ -188,7 +188,7 @@ namespace
     const auto uniform =
       run({"Refinement/Follow waves=false", "Geometry/Initial refinement=3"});
     double old_difference = 1e300;
-    for (const std::string threshold : {"0.1", "0.02", "0.004"})
+    for (const std::string threshold : {"0.4", "0.1", "0.02"})
       {
         const auto lines =
           run({"Refinement/Refine threshold=" + threshold,
@@ -215,12 +215,14 @@ namespace
                        double(lines.size()) - double(uniform.size()),
                        0.);
         report.require("threshold " + threshold + ", difference",
+                       difference,
+                       0.03);
+        report.require("threshold " + threshold + ", of the one before",
                        difference / old_difference,
-                       0.7);
-        report.require("unknowns by steps", part, 0.9);
+                       1.);
+        report.require("unknowns by steps", part, 0.6);
         old_difference = difference;
       }
-    report.require("difference at the finest threshold", old_difference, 0.02);
   }
 } // namespace
 

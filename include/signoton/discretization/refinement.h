@@ -93,6 +93,15 @@ namespace Signoton
     unsigned int maximum_unknowns = 1000000;
   };
 
+  /** What a traction at a point of the boundary is short of the given one, in Pa.
+   *  What moves a boundary, or absorbs, takes any; nullptr is for a free one. */
+  template <int dim>
+  Tensor<1, dim>
+  missing_traction(const BoundaryCondition<dim> *condition,
+                   const Point<dim>             &p,
+                   const Tensor<1, dim>         &normal,
+                   const Tensor<1, dim>         &traction);
+
   /**
    * Leave the coarsening flags only of complete families above a level without
    * a finer neighbor, and no refinement flags. Whether such a neighbor is to be

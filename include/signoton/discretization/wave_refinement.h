@@ -7,9 +7,9 @@ namespace Signoton
 {
   /**
    * A mesh that goes with the waves: cells are refined where the traction jumps
-   * between them by more than a part of the largest jump of the run, and wherever a wave
+   * between them by more than a part of the largest jump, and wherever a wave
    * from there can arrive until the mesh is looked at again; cells behind, with
-   * small jumps, are coarsened.
+   * small jumps, are coarsened. Small waves get cells of a medium size.
    */
   class WaveRefinement
   {
@@ -63,23 +63,35 @@ namespace Signoton
 
     /**
      * Set refinement and coarsening flags.
-     * @param indicators by active cell, squared, see
-     *   Refinement::traction_jumps()
+     * @param jump     see StressJumps; rounded here
      * @param distance that waves go until the next time, in m
-     * @param largest  jump of the run so far: in, the one of earlier calls;
-     *   what waves leave behind as they fade is small beside it
+     * @param largest  jump of the run so far: what waves leave behind as they
+     *   fade is small beside it
      * @return whether any cell changes
      */
     template <int dim>
     bool
     mark(Space<dim>          &space,
-         const Vector<float> &indicators,
+         std::vector<double> &jump,
          const double         distance,
          double              &largest) const;
 
   private:
+    /**
+     * The least level of every cell, by active cell index; only own cells count.
+     * @param jump      see StressJumps
+     * @param threshold of what is to be refined
+     * @param distance  as in mark()
+     */
+    template <int dim>
+    std::vector<unsigned int>
+    needed_levels(const parallel::distributed::Triangulation<dim> &mesh,
+                  const std::vector<double>                       &jump,
+                  const double                                     threshold,
+                  const double distance) const;
+
     bool         follow            = false;
-    unsigned int every             = 20;
+    unsigned int every             = 40;
     double       refine_threshold  = 0.1;
     double       coarsen_threshold = 0.02;
     unsigned int maximum_level     = 0;
