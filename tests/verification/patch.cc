@@ -170,9 +170,11 @@ namespace
     space.update_constraints(model.conditions);
     model.mechanics->reinit();
 
+    Loads<dim> loads(model);
+    loads.reinit();
     StaticProblem<dim> problem(model);
     problem.reinit();
-    problem.update_loads();
+    problem.update_loads(loads);
     VectorType u, lift;
     model.mechanics->initialize_vector(u);
     model.mechanics->initialize_vector(lift);
