@@ -32,6 +32,7 @@ main(int argc, char **argv)
           all.insert(all.end(),
                      {"Output/Probe points=",
                       "Output/Probe lines=",
+                      "Time integration/Snapshots=0",
                       "Time integration/Statistics every=10",
                       std::string("Time integration/Quiet zones=") +
                         (quiet ? "true" : "false")});
