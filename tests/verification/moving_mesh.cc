@@ -216,7 +216,7 @@ namespace
                        0.);
         report.require("threshold " + threshold + ", difference",
                        difference,
-                       0.03);
+                       0.02);
         report.require("threshold " + threshold + ", of the one before",
                        difference / old_difference,
                        1.);
