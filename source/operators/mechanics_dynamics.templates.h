@@ -240,11 +240,10 @@ namespace Signoton
     Rheology::Response<Number> response;
     auto accepted = Rheology::make_history<Number>(law), next = accepted;
     // with energies, a report may follow that looks at the step once more
-    constexpr bool on_trial = (request & Rheology::energies) != 0;
-    const Number   interior(Rheology::index(Rheology::Region::interior));
-    const bool     at_rest = !rest_strain.empty();
-    const bool     shock   = !dilatation.empty();
-    const Shock viscosity  = shock_of(material_of_batch[run.first]);
+    constexpr bool on_trial  = (request & Rheology::energies) != 0;
+    const bool     at_rest   = !rest_strain.empty();
+    const bool     shock     = !dilatation.empty();
+    const Shock    viscosity = shock_of(material_of_batch[run.first]);
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         const unsigned int n_lanes =
@@ -273,15 +272,14 @@ namespace Signoton
               {
                 const Tensor2<Number> moved = strain(cell, q);
                 read_history<Law>(history.accepted(batch, q), accepted);
-                law.template update<request>(
+                const bool changed = law.template update<request>(
                   at_rest ? moved + tensor_at(rest_strain, batch, q) : moved,
                   accepted,
                   next,
                   response);
                 if constexpr (on_trial)
                   write_history<Law>(next, history.trial(batch, q));
-                else if (!Law::interior_is_elastic ||
-                         !all_not_greater(response.region, interior))
+                else if (changed)
                   write_history<Law>(next, history.accepted(batch, q));
                 const Number w = weight(cell, q);
                 if constexpr ((request & Rheology::energies) != 0)
@@ -290,7 +288,7 @@ namespace Signoton
                     voids +=
                       w * std::max(trace(response.contact_strain), Number(0.));
                   }
-                if constexpr (request != Rheology::stress)
+                if (request != Rheology::stress && changed)
                   {
                     dissipated += w * response.dissipation;
                     viscous += w * response.viscous_dissipation;

@@ -14,7 +14,7 @@ namespace Signoton::Rheology
   {}
 
   template <unsigned int request, typename Number>
-  void
+  bool
   General::update(const Tensor2<Number>          &strain,
                   const History<General, Number> &accepted,
                   History<General, Number>       &trial,
@@ -62,10 +62,11 @@ namespace Signoton::Rheology
                      from_mandel(network->plastic_strain()));
           }
       }
+    return true;
   }
 
 #define SIGNOTON_INSTANTIATE(request, Number)     \
-  template void General::update<request, Number>( \
+  template bool General::update<request, Number>( \
     const Tensor2<Number> &,                      \
     const History<General, Number> &,             \
     History<General, Number> &,                   \

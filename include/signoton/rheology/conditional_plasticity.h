@@ -29,10 +29,9 @@ namespace Signoton::Rheology
     using Contact = SpringAndProjection<Cone, Memory::none>;
     using This    = ConditionalPlasticity<YieldSet, Cone>;
 
-    static constexpr unsigned int n_tensors           = Hinge::n_tensors;
-    static constexpr unsigned int n_scalars           = Hinge::n_scalars;
-    static constexpr bool         has_potential       = false;
-    static constexpr bool         interior_is_elastic = true;
+    static constexpr unsigned int n_tensors     = Hinge::n_tensors;
+    static constexpr unsigned int n_scalars     = Hinge::n_scalars;
+    static constexpr bool         has_potential = false;
 
     /** @param binder moduli of the spring in parallel with the contact */
     ConditionalPlasticity(const Moduli   &spring,
@@ -47,7 +46,7 @@ namespace Signoton::Rheology
      *  is closed, or Region::corner where both give way. Instead of a potential
      *  there is the stored energy. */
     template <unsigned int request, typename Number>
-    void
+    bool
     update(const Tensor2<Number>       &strain,
            const History<This, Number> &accepted,
            History<This, Number>       &trial,
@@ -56,10 +55,8 @@ namespace Signoton::Rheology
       const History<Hinge, Number> before{accepted.tensors, accepted.scalars};
       History<Hinge, Number>       after;
       Response<Number>             plastic;
-      hinge.template update<request &(tangent | energies)>(strain,
-                                                           before,
-                                                           after,
-                                                           plastic);
+      const bool yields = hinge.template update<request &(tangent | energies)>(
+        strain, before, after, plastic);
       trial.tensors = after.tensors;
       trial.scalars = after.scalars;
 
@@ -91,6 +88,7 @@ namespace Signoton::Rheology
       if constexpr (request & (energies | dissipation))
         response.dissipation =
           response.stress * (trial.tensors[0] - accepted.tensors[0]);
+      return yields;
     }
 
     const Moduli &

@@ -29,8 +29,7 @@ namespace Signoton::Rheology
   class General
   {
   public:
-    static constexpr bool has_potential       = true;
-    static constexpr bool interior_is_elastic = false; // there may be dampers
+    static constexpr bool has_potential = true;
 
     explicit General(const Scheme &scheme);
 
@@ -53,8 +52,9 @@ namespace Signoton::Rheology
       network->set_time_step(time_step);
     }
 
+    /** Always true: dampers move inside the sets, too. */
     template <unsigned int request, typename Number>
-    void
+    bool
     update(const Tensor2<Number>          &strain,
            const History<General, Number> &accepted,
            History<General, Number>       &trial,

@@ -30,7 +30,7 @@ namespace Signoton::Rheology
 
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    bool
+    void
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
@@ -54,7 +54,6 @@ namespace Signoton::Rheology
                                                          Number(moduli.bulk),
                                                          Number(0.)),
                                    Number(2. * moduli.shear));
-      return all_not_greater(result.region, inside);
     }
 
     double

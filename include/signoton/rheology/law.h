@@ -51,15 +51,15 @@ namespace Signoton::Rheology
     /** Whether the stress of a step is the derivative of a potential, so that
      *  the tangent is symmetric. */
     static constexpr bool has_potential = true;
-    /** Whether only points outside Region::interior remember anything new. */
-    static constexpr bool interior_is_elastic = true;
 
     explicit Elastic(const Moduli &spring)
       : spring(spring)
     {}
 
+    /** One step of a material point. Returns false if the history stays as
+     *  accepted for sure; so do the other laws. */
     template <unsigned int request, typename Number>
-    DEAL_II_ALWAYS_INLINE void
+    DEAL_II_ALWAYS_INLINE bool
     update(const Tensor2<Number> &strain,
            const History<Elastic, Number> &,
            History<Elastic, Number> &,
@@ -79,6 +79,7 @@ namespace Signoton::Rheology
         }
       if constexpr (request & (energies | dissipation))
         response.dissipation = response.viscous_dissipation = Number(0.);
+      return false;
     }
 
     const Moduli &
@@ -127,8 +128,7 @@ namespace Signoton::Rheology
   public:
     static constexpr unsigned int n_tensors = memory == Memory::none ? 0 : 1;
     static constexpr unsigned int n_scalars = Set::hardens ? 1 : 0;
-    static constexpr bool         has_potential       = true;
-    static constexpr bool         interior_is_elastic = true;
+    static constexpr bool         has_potential = true;
 
     using This = SpringAndProjection<Set, memory>;
 
@@ -139,6 +139,7 @@ namespace Signoton::Rheology
       : spring(spring)
       , binder(binder)
       , metric{spring.bulk + binder.bulk, spring.shear + binder.shear}
+      , start_moduli(n_tensors == 0 ? spring : metric)
       , compliance(1. / (3. * metric.bulk), 1. / (2. * metric.shear))
       , to_spring{binder.bulk / metric.bulk, binder.shear / metric.shear}
       , to_set{spring.bulk / metric.bulk, spring.shear / metric.shear}
@@ -146,12 +147,29 @@ namespace Signoton::Rheology
     {}
 
     template <unsigned int request, typename Number>
-    DEAL_II_ALWAYS_INLINE void
+    DEAL_II_ALWAYS_INLINE bool
     update(const Tensor2<Number>       &strain,
            const History<This, Number> &accepted,
            History<This, Number>       &trial,
            Response<Number>            &response) const
     {
+      if constexpr ((request & (potential | energies)) == 0)
+        {
+          const Start<Number> start = start_of_return(strain, accepted);
+          if (set.surely_contains(start.pressure,
+                                  start.shear_invariant,
+                                  start.hardening))
+            {
+              respond_inside<request>(strain, accepted, trial, response);
+              return false;
+            }
+          if constexpr (Set::of_revolution && (request & tangent) == 0)
+            {
+              respond_radially<request>(
+                strain, start, accepted, trial, response);
+              return true;
+            }
+        }
       const Tensor2<Number> s = spring.stress(strain);
       Tensor2<Number>       t = s;
       if constexpr (n_tensors > 0)
@@ -159,14 +177,7 @@ namespace Signoton::Rheology
       Projection<Number, (request & tangent) != 0> projection;
       if constexpr (n_scalars > 0)
         projection.hardening = accepted.scalars[0];
-      const bool inside = set.project(t, metric, projection);
-      if constexpr ((request & (potential | energies)) == 0)
-        if (inside)
-          {
-            respond_inside<request>(s, accepted, trial, response);
-            return;
-          }
-
+      set.project(t, metric, projection);
       response.stress = to_spring(s) + to_set(projection.stress);
       response.region = projection.region;
       if constexpr (n_tensors > 0)
@@ -199,6 +210,7 @@ namespace Signoton::Rheology
             response.dissipation -= set.hardening_stress(trial.scalars[0]) *
                                     (trial.scalars[0] - accepted.scalars[0]);
         }
+      return true;
     }
 
     const Moduli &
@@ -208,24 +220,122 @@ namespace Signoton::Rheology
     }
 
   private:
+    /** The argument $t$ of the projection by its invariants, and the deviator
+     *  of a strain $e$ that belongs to it: the whole strain, $t=E:e$, where
+     *  nothing is remembered; else $t=E_c:e$. */
+    template <typename Number>
+    struct Start
+    {
+      Tensor2<Number> deviator; ///< $e'$
+      Number          pressure, shear_invariant, hardening;
+    };
+
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE Start<Number>
+                          start_of_return(const Tensor2<Number>       &strain,
+                                          const History<This, Number> &accepted) const
+    {
+      Start<Number> start;
+      start.hardening = Number(0.);
+      if constexpr (n_scalars > 0)
+        start.hardening = accepted.scalars[0];
+      if constexpr (n_tensors == 0)
+        {
+          start.deviator = deviatoric_part(strain);
+          start.pressure = -start_moduli.bulk * trace(strain);
+        }
+      else
+        {
+          start.deviator = deviatoric_part(
+            Tensor2<Number>(to_set.deviatoric * strain - accepted.tensors[0]));
+          start.pressure = -spring.bulk * trace(strain);
+          if constexpr (memory == Memory::all) // else it is a deviator
+            start.pressure += metric.bulk * trace(accepted.tensors[0]);
+        }
+      start.shear_invariant = (2. * start_moduli.shear * start_moduli.shear) *
+                              (start.deviator * start.deviator);
+      return start;
+    }
+
     /** The answer where no lane gives way, which most points of a body get:
      *  that of the spring, short of the plastic strain. */
     template <unsigned int request, typename Number>
     DEAL_II_ALWAYS_INLINE void
-    respond_inside(const Tensor2<Number>       &s,
+    respond_inside(const Tensor2<Number>       &strain,
                    const History<This, Number> &accepted,
                    History<This, Number>       &trial,
                    Response<Number>            &response) const
     {
-      response.stress = s;
       if constexpr (n_tensors > 0)
-        response.stress -= spring.stress(accepted.tensors[0]);
+        response.stress =
+          spring.stress(Tensor2<Number>(strain - accepted.tensors[0]));
+      else
+        response.stress = spring.stress(strain);
       response.region = index(Region::interior);
       trial           = accepted;
       if constexpr (request & tangent)
         response.tangent = spring.tensor<Number>();
       if constexpr (request & dissipation)
         response.dissipation = response.viscous_dissipation = Number(0.);
+    }
+
+    /** The answer of sets that change a stress by its pressure and the size of
+     *  its deviator alone: all in numbers, few of them, for explicit steps. */
+    template <unsigned int request, typename Number>
+    DEAL_II_ALWAYS_INLINE void
+    respond_radially(const Tensor2<Number>       &strain,
+                     const Start<Number>         &start,
+                     const History<This, Number> &accepted,
+                     History<This, Number>       &trial,
+                     Response<Number>            &response) const
+    {
+      const RadialReturn<Number> end = set.radial_return(start.pressure,
+                                                         start.shear_invariant,
+                                                         start.hardening,
+                                                         metric);
+      response.region                = end.region;
+      const double inner             = 2. * to_spring.deviatoric * spring.shear;
+      const Number outer =
+        (2. * to_set.deviatoric * start_moduli.shear) * end.shear_scale;
+      const double inner_bulk = to_spring.spherical * spring.bulk;
+      const Number outer_sum  = -to_set.spherical * end.pressure;
+      if constexpr (n_tensors == 0)
+        response.stress =
+          add_spherical(Tensor2<Number>((inner + outer) * start.deviator),
+                        Number(inner_bulk * trace(strain) + outer_sum));
+      else
+        {
+          response.stress =
+            add_spherical(Tensor2<Number>(inner * deviatoric_part(strain) +
+                                          outer * start.deviator),
+                          Number(inner_bulk * trace(strain) + outer_sum));
+          Number share = Number(1.) - end.shear_scale;
+          if constexpr (memory == Memory::cylinder)
+            share *= end.cylinder_share;
+          trial.tensors[0] = accepted.tensors[0] + share * start.deviator;
+          if constexpr (memory == Memory::all)
+            trial.tensors[0] =
+              add_spherical(trial.tensors[0],
+                            Number((end.pressure - start.pressure) *
+                                   (1. / (3. * metric.bulk))));
+          if constexpr (n_scalars > 0)
+            trial.scalars[0] = end.hardening;
+          if constexpr (request & dissipation)
+            response.dissipation = (1. / metric.shear) * share *
+                                   end.shear_scale * start.shear_invariant;
+          if constexpr ((request & dissipation) && memory == Memory::all)
+            response.dissipation += (1. / metric.bulk) * end.pressure *
+                                    (start.pressure - end.pressure);
+          if constexpr ((request & dissipation) && n_scalars > 0)
+            response.dissipation -= set.hardening_stress(end.hardening) *
+                                    (end.hardening - start.hardening);
+        }
+      if constexpr (request & dissipation)
+        {
+          response.viscous_dissipation = Number(0.);
+          if constexpr (n_tensors == 0)
+            response.dissipation = Number(0.);
+        }
     }
 
     /** The plastic part of the strain $E_c^{-1}:(t-\pi)$. */
@@ -276,7 +386,8 @@ namespace Signoton::Rheology
     Moduli           spring;
     Moduli           binder;
     Moduli           metric;
-    IsotropicScaling compliance; ///< $E_c^{-1}$
+    Moduli           start_moduli; ///< see Start
+    IsotropicScaling compliance;   ///< $E_c^{-1}$
     IsotropicScaling to_spring;
     IsotropicScaling to_set;
     Set              set;

@@ -35,7 +35,8 @@ namespace Signoton::Rheology
   class MisesSchleicherCone
   {
   public:
-    static constexpr bool hardens = false;
+    static constexpr bool hardens       = false;
+    static constexpr bool of_revolution = true;
 
     /**
      * @param friction $\kappa > 0$, dimensionless
@@ -54,84 +55,71 @@ namespace Signoton::Rheology
 
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    DEAL_II_ALWAYS_INLINE bool
+    DEAL_II_ALWAYS_INLINE void
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
     {
-      const Number          P        = pressure(trial) + apex;
+      const Number          p        = pressure(trial);
       const Tensor2<Number> deviator = deviatoric_part(trial);
       const Number          tau_2    = shear_invariant(deviator);
-      const Number          zero(0.), one(1.), yield(shear_strength);
-      result.potential_correction = 0.;
-
-      const Number strength = std::min(Number(friction * P), yield);
-      if (all_not_greater(zero, strength) &&
-          all_not_greater(tau_2, Number(strength * strength)))
+      result.potential_correction    = 0.;
+      if (surely_contains(p, tau_2, Number(0.)))
         {
           result.stress         = trial;
           result.region         = index(Region::interior);
-          result.cylinder_share = zero;
+          result.cylinder_share = Number(0.);
           if constexpr (with_tangent)
             result.tangent = moduli.tensor<Number>();
-          return true;
+          return;
         }
 
-      const double k = moduli.bulk, mu = moduli.shear;
-      const double share = 1. / (mu + friction * friction * k);
-      const Number tau   = std::sqrt(tau_2);
-      const Number P_face =
-        (mu * share) * P + (friction * k * share) * tau; // on the extended cone
-
-      // Outside, P < P_face: the larger of the two is P in the cylinder only.
-      const Number new_P =
-        std::max(P, std::min(std::max(P_face, zero), Number(corner_pressure)));
-      const Number new_tau =
-        std::min(tau, std::min(Number(friction * new_P), yield));
-      const Number inverse_tau = one / select_if_less(zero, tau, tau, one);
-      const Number shear_scale = new_tau * inverse_tau;
-      result.stress = add_spherical(Tensor2<Number>(shear_scale * deviator),
-                                    Number(apex - new_P));
-
-      // In the corner, the contact takes (theta, theta / kappa) of the strain
-      // (theta, gamma); on the cone it takes all. Here mu times the shears.
-      const Number excess  = tau - new_tau;
-      const Number contact = (new_P - P) * (mu / (friction * k));
-      const Number flow    = std::max(zero, Number(excess - contact)) /
-                          select_if_less(zero, excess, excess, one);
-      result.cylinder_share =
-        select_if_not_greater(P_face, Number(corner_pressure), zero, flow);
-
-      // A weight of one marks the lanes of a region; the order is the
-      // sequential rule of the class comment, from last to first.
-      const auto pick = [&](const Number &in_corner,
-                            const Number &on_face,
-                            const Number &at_vertex,
-                            const Number &on_cylinder,
-                            const Number &inside) {
-        const Number corner_P(corner_pressure);
-        Number       value =
-          select_if_not_greater(P_face, corner_P, on_face, in_corner);
-        value = select_if_not_greater(P_face, zero, at_vertex, value);
-        value = select_if_not_greater(corner_P, P, on_cylinder, value);
-        return select_if_not_greater(tau, strength, inside, value);
-      };
-      result.region = pick(Number(index(Region::corner)),
-                           Number(index(Region::face)),
-                           Number(index(Region::vertex)),
-                           Number(index(Region::cylinder)),
-                           Number(index(Region::interior)));
+      const Return<Number> end = map(p, tau_2, moduli);
+      result.stress = add_spherical(Tensor2<Number>(end.shear_scale * deviator),
+                                    Number(-end.pressure));
+      result.cylinder_share = end.cylinder_share;
+      result.region         = end.region;
       if constexpr (with_tangent)
         {
-          const Number c    = k * mu * share;
-          const Number a_II = pick(zero, c, zero, Number(k), Number(k));
-          const Number a_In = pick(zero, -friction * c, zero, zero, zero);
-          const Number a_nn =
-            pick(zero, friction * friction * c, zero, zero, Number(mu));
+          const double k = moduli.bulk, mu = moduli.shear;
+          const double c = k * mu / (mu + friction * friction * k);
+          const Number zero(0.);
           result.tangent = revolution_tangent<Number>(
-            a_II, a_In, a_nn, 2. * mu * shear_scale, inverse_tau * deviator);
+            pick(end, zero, Number(c), zero, Number(k), Number(k)),
+            pick(end, zero, Number(-friction * c), zero, zero, zero),
+            pick(end,
+                 zero,
+                 Number(friction * friction * c),
+                 zero,
+                 zero,
+                 Number(mu)),
+            2. * mu * end.shear_scale,
+            end.inverse_tau * deviator);
         }
-      return false;
+    }
+
+    /** See Projection. */
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE bool
+    surely_contains(const Number &pressure,
+                    const Number &shear_invariant,
+                    const Number &) const
+    {
+      const Number strength =
+        std::min(Number(friction * (pressure + apex)), Number(shear_strength));
+      return all_not_greater(Number(0.), strength) &&
+             all_not_greater(shear_invariant, Number(strength * strength));
+    }
+
+    /** See RadialReturn. */
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE RadialReturn<Number>
+                          radial_return(const Number &pressure,
+                                        const Number &shear_invariant,
+                                        const Number &,
+                                        const Moduli &moduli) const
+    {
+      return map(pressure, shear_invariant, moduli);
     }
 
     /** The cone cut off by a cylinder at @p strength in Pa. */
@@ -148,6 +136,75 @@ namespace Signoton::Rheology
     }
 
   private:
+    /** With what tells the regions and gives the tangent. */
+    template <typename Number>
+    struct Return : RadialReturn<Number>
+    {
+      Number P, tau, strength, P_face, inverse_tau;
+    };
+
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE Return<Number>
+    map(const Number &p, const Number &tau_2, const Moduli &moduli) const
+    {
+      const double   k = moduli.bulk, mu = moduli.shear;
+      const double   share = 1. / (mu + friction * friction * k);
+      const Number   zero(0.), one(1.), yield(shear_strength);
+      Return<Number> r;
+      r.P        = p + apex;
+      r.strength = std::min(Number(friction * r.P), yield);
+      r.tau      = std::sqrt(tau_2);
+      r.P_face   = (mu * share) * r.P +
+                 (friction * k * share) * r.tau; // on the extended cone
+
+      // Outside, P < P_face: the larger of the two is P in the cylinder only.
+      const Number new_P =
+        std::max(r.P,
+                 std::min(std::max(r.P_face, zero), Number(corner_pressure)));
+      const Number new_tau =
+        std::min(r.tau, std::min(Number(friction * new_P), yield));
+      r.inverse_tau = one / select_if_less(zero, r.tau, r.tau, one);
+      r.shear_scale = new_tau * r.inverse_tau;
+      r.pressure    = new_P - apex;
+      r.hardening   = zero;
+
+      // In the corner, the contact takes (theta, theta / kappa) of the strain
+      // (theta, gamma); on the cone it takes all. Here mu kappa k times the
+      // shears.
+      const Number excess  = (friction * k) * (r.tau - new_tau);
+      const Number contact = mu * (new_P - r.P);
+      const Number flow    = std::max(zero, Number(excess - contact)) /
+                          select_if_less(zero, excess, excess, one);
+      r.cylinder_share =
+        select_if_not_greater(r.P_face, Number(corner_pressure), zero, flow);
+      r.region = pick(r,
+                      Number(index(Region::corner)),
+                      Number(index(Region::face)),
+                      Number(index(Region::vertex)),
+                      Number(index(Region::cylinder)),
+                      Number(index(Region::interior)));
+      return r;
+    }
+
+    /** The value of the region of every lane, by the sequential rule of the
+     *  class comment from last to first. */
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE Number
+    pick(const Return<Number> &r,
+         const Number         &in_corner,
+         const Number         &on_face,
+         const Number         &at_vertex,
+         const Number         &on_cylinder,
+         const Number         &inside) const
+    {
+      const Number corner_P(corner_pressure);
+      Number       value =
+        select_if_not_greater(r.P_face, corner_P, on_face, in_corner);
+      value = select_if_not_greater(r.P_face, Number(0.), at_vertex, value);
+      value = select_if_not_greater(corner_P, r.P, on_cylinder, value);
+      return select_if_not_greater(r.tau, r.strength, inside, value);
+    }
+
     double friction;
     double apex;
     double shear_strength;

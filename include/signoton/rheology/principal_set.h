@@ -34,7 +34,8 @@ namespace Signoton::Rheology
   class PrincipalSet
   {
   public:
-    static constexpr bool hardens = false;
+    static constexpr bool hardens       = false;
+    static constexpr bool of_revolution = false;
 
     /** @param friction_angle in radians, $0<\phi<\pi/2$
      *  @param apex hydrostatic tensile strength $p_0$ in Pa */
@@ -61,12 +62,11 @@ namespace Signoton::Rheology
 
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    bool
+    void
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
     {
-      bool inside                 = true;
       result.potential_correction = 0.;
       for (unsigned int i = 0; i < n_lanes<Number>(); ++i)
         {
@@ -78,9 +78,22 @@ namespace Signoton::Rheology
           set_lane(result.region, i, index(region));
           if constexpr (with_tangent)
             set_lane(result.tangent, i, derivative.tangent);
-          inside = inside && region == Region::interior;
         }
-      return inside;
+    }
+
+    /** See Projection. It spares most points inside the spectral
+     *  decomposition: all principal values lie within $-p\pm 2\tau/\sqrt3$. */
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE bool
+    surely_contains(const Number &pressure,
+                    const Number &shear_invariant,
+                    const Number &) const
+    {
+      const Number room = bound + (1. - m) * (pressure + apex);
+      return all_not_greater(Number(0.), room) &&
+             all_not_greater(Number((4. / 3. * (1. + m) * (1. + m)) *
+                                    shear_invariant),
+                             Number(room * room));
     }
 
     bool
@@ -114,7 +127,9 @@ namespace Signoton::Rheology
                  Tensor2<>                               &stress,
                  ProjectionTangent<double, with_tangent> &derivative) const
     {
-      if (is_clearly_inside(trial))
+      if (surely_contains(pressure(trial),
+                          shear_invariant(deviatoric_part(trial)),
+                          0.))
         {
           stress = trial;
           if constexpr (with_tangent)
@@ -135,19 +150,6 @@ namespace Signoton::Rheology
                                moduli.tensor<double>() :
                                spectrum.tangent(x, J_E, moduli.shear);
       return region;
-    }
-
-    /** A test by invariants that spares most interior points the spectral
-     *  decomposition: all principal values lie within
-     *  $\mathrm{tr}/3\pm 2\tau/\sqrt3$. */
-    bool
-    is_clearly_inside(const Tensor2<> &trial) const
-    {
-      const double room = bound - (1. - m) * (trace(trial) * (1. / 3.) - apex);
-      const Tensor2<> deviator = deviatoric_part(trial);
-      return room >= 0. &&
-             (2. / 3.) * (1. + m) * (1. + m) * (deviator * deviator) <=
-               room * room;
     }
 
     /** The projection of principal values $y$, with $x$ and $JE$. */
@@ -233,21 +235,30 @@ namespace Signoton::Rheology
   class NoCompression
   {
   public:
-    static constexpr bool hardens = false;
+    static constexpr bool hardens       = false;
+    static constexpr bool of_revolution = false;
 
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    bool
+    void
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
     {
-      const bool inside =
-        PrincipalSet::no_tension(0.).project(Tensor2<Number>(-trial),
-                                             moduli,
-                                             result);
+      no_tension.project(Tensor2<Number>(-trial), moduli, result);
       result.stress *= -1.;
-      return inside;
+    }
+
+    /** See Projection. */
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE bool
+    surely_contains(const Number &pressure,
+                    const Number &shear_invariant,
+                    const Number &plastic_shear) const
+    {
+      return no_tension.surely_contains(Number(-pressure),
+                                        shear_invariant,
+                                        plastic_shear);
     }
 
     double
@@ -255,6 +266,9 @@ namespace Signoton::Rheology
     {
       return 0.;
     }
+
+  private:
+    PrincipalSet no_tension = PrincipalSet::no_tension(0.);
   };
 } // namespace Signoton::Rheology
 

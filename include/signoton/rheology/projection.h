@@ -56,7 +56,9 @@ namespace Signoton::Rheology
   /**
    * The result of projecting a trial stress $t$ onto a convex set of stresses
    * in the energy norm of moduli $(k_c,\mu_c)$. The sets' functions project()
-   * fill it and return whether all lanes were inside, where $\pi=t$.
+   * fill it. Their surely_contains() tells by the pressure, $\tau^2$ and the
+   * accumulated plastic shear of a stress whether it is inside in all lanes, a
+   * test without a root; a set may say no to a stress that is inside.
    */
   template <typename Number, bool with_tangent>
   struct Projection : ProjectionTangent<Number, with_tangent>
@@ -73,6 +75,20 @@ namespace Signoton::Rheology
     /** The part of the shear of $t-\pi$ that belongs to the cylinder, where a
      *  set has one next to a cone; others leave it untouched. */
     Number cylinder_share;
+  };
+
+  /**
+   * The same for a set of revolution about the hydrostatic axis, which leaves
+   * the direction of the deviator as it is: `set.radial_return(p, tau_2,
+   * hardening, moduli)` of the invariants $p$, $\tau^2$ of $t$. Such sets have
+   * `of_revolution`. Members as in Projection.
+   */
+  template <typename Number>
+  struct RadialReturn
+  {
+    Number pressure;    ///< of $\pi$ in Pa
+    Number shear_scale; ///< $\pi'=$ this times $t'$
+    Number region, hardening, cylinder_share;
   };
 
   /**

@@ -21,7 +21,8 @@ namespace Signoton::Rheology
   class VonMisesCylinder
   {
   public:
-    static constexpr bool hardens = isotropic_hardening;
+    static constexpr bool hardens       = isotropic_hardening;
+    static constexpr bool of_revolution = true;
 
     /** Both arguments in Pa. */
     VonMisesCylinder(const double shear_strength,
@@ -32,57 +33,73 @@ namespace Signoton::Rheology
 
     /** See Projection. */
     template <typename Number, bool with_tangent>
-    bool
+    DEAL_II_ALWAYS_INLINE void
     project(const Tensor2<Number>            &trial,
             const Moduli                     &moduli,
             Projection<Number, with_tangent> &result) const
     {
       const Tensor2<Number> deviator = deviatoric_part(trial);
       const Number          tau_2    = shear_invariant(deviator);
-      Number                strength = shear_strength;
+      const Number          zero(0.);
+      Number                plastic_shear(0.);
       if constexpr (hardens)
-        strength += hardening_stress(result.hardening);
+        plastic_shear = result.hardening;
       result.potential_correction = 0.;
-
-      if (all_not_greater(tau_2, Number(strength * strength)))
+      if (surely_contains(zero, tau_2, plastic_shear))
         {
           result.stress = trial;
           result.region = index(Region::interior);
           if constexpr (with_tangent)
             result.tangent = moduli.tensor<Number>();
-          return true;
+          return;
         }
 
-      const double k = moduli.bulk, mu = moduli.shear,
-                   stiffness = mu + hardening_modulus;
-      const Number zero(0.), one(1.);
-      const Number tau         = std::sqrt(tau_2);
-      const Number inverse_tau = one / select_if_less(zero, tau, tau, one);
-      const Number slip =
-        std::max(zero, Number((tau - strength) * (1. / stiffness)));
-      const Number cut = mu * slip * inverse_tau;
-      result.stress    = trial - cut * deviator;
-      result.region    = select_if_less(zero,
-                                     slip,
-                                     Number(index(Region::cylinder)),
-                                     Number(index(Region::interior)));
+      const Return<Number> end = map(zero, tau_2, plastic_shear, moduli);
+      result.stress            = trial - end.cut * deviator;
+      result.region            = end.region;
       if constexpr (hardens)
         {
-          result.hardening += slip;
+          result.hardening = end.hardening;
           result.potential_correction =
-            (-0.5 * hardening_modulus) * slip * slip;
+            (-0.5 * hardening_modulus) * end.slip * end.slip;
         }
       if constexpr (with_tangent)
         {
-          const Number along = select_if_less(
-            zero, slip, Number(mu * hardening_modulus / stiffness), Number(mu));
-          result.tangent = revolution_tangent<Number>(Number(k),
-                                                      zero,
-                                                      along,
-                                                      2. * mu * (one - cut),
-                                                      inverse_tau * deviator);
+          const double mu    = moduli.shear;
+          const Number along = select_if_less(zero,
+                                              end.slip,
+                                              Number(mu * hardening_modulus /
+                                                     (mu + hardening_modulus)),
+                                              Number(mu));
+          result.tangent =
+            revolution_tangent<Number>(Number(moduli.bulk),
+                                       zero,
+                                       along,
+                                       2. * mu * end.shear_scale,
+                                       end.inverse_tau * deviator);
         }
-      return false;
+    }
+
+    /** See Projection. */
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE bool
+    surely_contains(const Number &,
+                    const Number &shear_invariant,
+                    const Number &plastic_shear) const
+    {
+      const Number strength = present_strength(plastic_shear);
+      return all_not_greater(shear_invariant, Number(strength * strength));
+    }
+
+    /** See RadialReturn. */
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE RadialReturn<Number>
+                          radial_return(const Number &pressure,
+                                        const Number &shear_invariant,
+                                        const Number &plastic_shear,
+                                        const Moduli &moduli) const
+    {
+      return map(pressure, shear_invariant, plastic_shear, moduli);
     }
 
     /** What hardening adds to the shear strength, $H\gamma$ in Pa. */
@@ -109,6 +126,48 @@ namespace Signoton::Rheology
     }
 
   private:
+    /** With what gives potential and tangent. */
+    template <typename Number>
+    struct Return : RadialReturn<Number>
+    {
+      Number slip, cut, inverse_tau;
+    };
+
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE Return<Number>
+                          map(const Number &pressure,
+                              const Number &tau_2,
+                              const Number &plastic_shear,
+                              const Moduli &moduli) const
+    {
+      const Number   zero(0.), one(1.), tau = std::sqrt(tau_2);
+      Return<Number> r;
+      r.inverse_tau    = one / select_if_less(zero, tau, tau, one);
+      r.slip           = std::max(zero,
+                        Number((tau - present_strength(plastic_shear)) *
+                               (1. / (moduli.shear + hardening_modulus))));
+      r.cut            = moduli.shear * r.slip * r.inverse_tau;
+      r.pressure       = pressure;
+      r.shear_scale    = one - r.cut;
+      r.region         = select_if_less(zero,
+                                r.slip,
+                                Number(index(Region::cylinder)),
+                                Number(index(Region::interior)));
+      r.hardening      = plastic_shear + r.slip;
+      r.cylinder_share = one;
+      return r;
+    }
+
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE Number
+    present_strength(const Number &plastic_shear) const
+    {
+      Number strength(shear_strength);
+      if constexpr (hardens)
+        strength += hardening_stress(plastic_shear);
+      return strength;
+    }
+
     double shear_strength;
     double hardening_modulus;
   };
