@@ -86,6 +86,11 @@ namespace Signoton
               {
                 if (cell->periodic_neighbor(f)->is_active())
                   look_at(cell->periodic_neighbor(f));
+                else
+                  for (unsigned int s = 0;
+                       s < GeometryInfo<dim>::max_children_per_face;
+                       ++s)
+                    look_at(cell->periodic_neighbor_child_on_subface(f, s));
               }
             else if (cell->at_boundary(f))
               continue;

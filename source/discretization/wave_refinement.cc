@@ -132,6 +132,7 @@ namespace Signoton
               for (const auto v : cell->vertex_indices())
                 vertices[i][v] = cell->vertex_index(v);
             }
+        find_bridges();
       }
 
       /** The cells that are touched from own cells within their distances, by
@@ -174,6 +175,16 @@ namespace Signoton
                         of_vertex[v] = of_cell[i];
                         is_new[v]    = true;
                       }
+            for (const auto &[from, to, shift] : bridges)
+              if (Origin<dim> image = of_vertex[from]; image.radius >= 0.)
+                {
+                  image.center += shift;
+                  if (image.is_better(of_vertex[to], points[to]))
+                    {
+                      of_vertex[to] = image;
+                      is_new[to]    = true;
+                    }
+                }
             news.clear();
             for (const unsigned int i : own)
               {
@@ -202,10 +213,54 @@ namespace Signoton
       static constexpr unsigned int n_vertices =
         GeometryInfo<dim>::vertices_per_cell;
 
+      /** From a vertex to the same one across a periodic boundary. */
+      struct Bridge
+      {
+        unsigned int   from, to;
+        Tensor<1, dim> shift;
+      };
+
+      void
+      find_bridges()
+      {
+        for (const auto &cell : mesh.active_cell_iterators())
+          if (cell->is_locally_owned() && cell->at_boundary())
+            for (const auto f : cell->face_indices())
+              if (cell->has_periodic_neighbor(f))
+                {
+                  const auto         other = cell->periodic_neighbor(f);
+                  const unsigned int back  = cell->periodic_neighbor_face_no(f);
+                  typename Triangulation<dim>::cell_iterator peer = cell;
+                  while (peer->level() > other->level())
+                    peer = peer->parent();
+                  add_bridges(*cell->face(f),
+                              *other->face(back),
+                              peer->face(f)->center() -
+                                other->face(back)->center());
+                }
+      }
+
+      /** Of vertices that are the same up to the shift from @p there to
+       *  @p here; on a face that is refined, those of the coarse one. */
+      template <typename Face>
+      void
+      add_bridges(const Face           &here,
+                  const Face           &there,
+                  const Tensor<1, dim> &shift)
+      {
+        for (const auto v : here.vertex_indices())
+          for (const auto w : there.vertex_indices())
+            if ((there.vertex(w) + shift).distance(here.vertex(v)) <
+                1e-6 * here.diameter())
+              bridges.push_back(
+                {there.vertex_index(w), here.vertex_index(v), shift});
+      }
+
       const parallel::distributed::Triangulation<dim>  &mesh;
       std::vector<unsigned int>                         own, ghosts;
       std::vector<Point<dim>>                           center;
       std::vector<std::array<unsigned int, n_vertices>> vertices;
+      std::vector<Bridge>                               bridges;
     };
 
     /** Coarsening that is worth a new mesh, as a part of all cells. */

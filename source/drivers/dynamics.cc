@@ -47,10 +47,7 @@ namespace Signoton
       model.mechanics->initialize_vector(*vector);
     model.mechanics->initialize_mesh_vector(external);
     if (loads.vary())
-      {
-        old_external.reinit(external);
-        steady_load.reinit(external);
-      }
+      old_external.reinit(external);
     if (!absorbing.empty())
       for (VectorType *vector : {&dashpots, &old_dashpots})
         vector->reinit(internal);

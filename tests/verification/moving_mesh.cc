@@ -168,6 +168,50 @@ namespace
     report.require("gap", value(moving, "energy gap"), 1e-8);
   }
 
+  /** Waves that leave through a periodic boundary come in at the other one, and
+   *  the mesh is ready there: all is as where the body is cut elsewhere. */
+  void
+  periodic(Report &report, const int dim)
+  {
+    std::vector<std::vector<PhysicalNumbers::Line>> runs;
+    for (const std::string x : {"(x-0.5)", "min(x, 1-x)"})
+      {
+        SceneFile file = free_body(dim, 1, true, "box");
+        file.set({"Geometry"},
+                 "Arguments",
+                 dim == 2 ? "4, 4 : 0, 0 : 1, 1 : true" :
+                            "4, 2, 2 : 0, 0, 0 : 1, 0.5, 0.5 : true");
+        file.set({"Geometry"}, "Periodic boundaries", "left: right");
+        file.set({"Refinement"}, "Maximum level", dim == 3 ? "2" : "4");
+        const std::string bump = "*exp(-100*(" + x + "^2+(y-0.4)^2" +
+                                 (dim == 3 ? "+(z-0.2)^2" : "") + "))";
+        file.set({"Initial state"},
+                 "Velocity",
+                 "0.02" + bump + "; 0.05" + bump + (dim == 3 ? "; 0" : ""));
+        runs.push_back(run(file));
+      }
+    report.require("steps",
+                   double(runs[0].size()) - double(runs[1].size()),
+                   0.);
+    double cells = 0., energy = 0., most = 0.;
+    for (std::size_t i = 0; i < std::min(runs[0].size(), runs[1].size()); ++i)
+      {
+        const auto difference = [&](const std::string &column) {
+          return std::abs(value(runs[0][i], column) -
+                          value(runs[1][i], column));
+        };
+        cells  = std::max(cells, difference("cells"));
+        most   = std::max(most, value(runs[0][i], "cells"));
+        energy = std::max(energy,
+                          difference("kinetic energy") /
+                            value(runs[0][0], "initial energy"));
+      }
+    report.out << dim << "D, across a periodic boundary: up to " << most
+               << " cells, as elsewhere but for " << cells << ", energy "
+               << report.round_off("energy", energy, 1e-12) << '\n';
+    report.require("cells", cells, 0.);
+  }
+
   /** The pulse of the shipped scene before and in the loosened inclusion, on
    *  its moving mesh and on one of finest cells: near, and the nearer the finer
    *  the thresholds. */
@@ -245,6 +289,8 @@ main(int argc, char **argv)
   conservation(report, 2, 1, true, "box", "implicit");
   conservation(report, 2, 2, false, "box", "implicit");
   viscous(report);
+  periodic(report, 2);
+  periodic(report, 3);
   against_uniform(report);
   return report.status();
 }
