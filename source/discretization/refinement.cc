@@ -1,3 +1,4 @@
+#include <signoton/discretization/periodic_vertices.h>
 #include <signoton/discretization/refinement.h>
 
 #include <deal.II/distributed/grid_refinement.h>
@@ -255,6 +256,10 @@ namespace Signoton
         for (const auto v : cell->vertex_indices())
           finest[cell->vertex_index(v)] =
             std::max(finest[cell->vertex_index(v)], cell->level());
+    const auto images = periodic_vertices(mesh);
+    for (unsigned int d = 0; d < dim; ++d) // corners have images of images
+      for (const auto &image : images)
+        finest[image.to] = std::max(finest[image.to], finest[image.from]);
     for (const auto &cell : mesh.active_cell_iterators())
       {
         cell->clear_refine_flag();
@@ -262,9 +267,6 @@ namespace Signoton
                            cell->level() > static_cast<int>(minimum_level);
         for (const auto v : cell->vertex_indices())
           may_coarsen &= finest[cell->vertex_index(v)] <= cell->level();
-        for (const auto f : cell->face_indices())
-          may_coarsen &= !cell->has_periodic_neighbor(f) ||
-                         cell->periodic_neighbor(f)->is_active();
         if (!may_coarsen)
           cell->clear_coarsen_flag();
       }

@@ -1,3 +1,4 @@
+#include <signoton/discretization/periodic_vertices.h>
 #include <signoton/discretization/refinement.h>
 #include <signoton/discretization/wave_refinement.h>
 
@@ -89,17 +90,29 @@ namespace Signoton
         return radius - center.distance(p);
       }
 
+      /** Also what is just touched, whatever the round-off. */
+      bool
+      reaches(const Point<dim> &p) const
+      {
+        return to_go(p) >= -1e-9 * radius;
+      }
+
       /** Whether a wave from here has more to go at a point. One of two equals
-       *  is chosen by its place, to be the same on any number of ranks. */
+       *  is chosen by its place, to be the same on any number of ranks; equal
+       *  are origins that differ by round-off, as images across a periodic
+       *  boundary and back do. */
       bool
       is_better(const Origin &other, const Point<dim> &p) const
       {
-        const double mine   = to_go(p);
-        const double others = other.to_go(p);
-        if (other.radius < 0. || mine > others)
+        if (other.radius < 0.)
           return true;
-        return !(mine < others) &&
-               std::lexicographical_compare(center.begin_raw(),
+        const double more  = to_go(p) - other.to_go(p);
+        const double noise = 1e-9 * radius;
+        if (center.distance(other.center) < noise)
+          return more > noise;
+        if (std::abs(more) > noise)
+          return more > 0.;
+        return std::lexicographical_compare(center.begin_raw(),
                                             center.end_raw(),
                                             other.center.begin_raw(),
                                             other.center.end_raw());
@@ -122,6 +135,7 @@ namespace Signoton
         : mesh(mesh)
         , center(mesh.n_active_cells())
         , vertices(mesh.n_active_cells())
+        , images(periodic_vertices(mesh))
       {
         for (const auto &cell : mesh.active_cell_iterators())
           if (!cell->is_artificial())
@@ -132,7 +146,6 @@ namespace Signoton
               for (const auto v : cell->vertex_indices())
                 vertices[i][v] = cell->vertex_index(v);
             }
-        find_bridges();
       }
 
       /** The cells that are touched from own cells within their distances, by
@@ -169,13 +182,14 @@ namespace Signoton
               for (const unsigned int i : *cells)
                 if (of_cell[i].radius >= 0.)
                   for (const unsigned int v : vertices[i])
-                    if (of_cell[i].to_go(points[v]) >= 0. &&
+                    if (of_cell[i].reaches(points[v]) &&
                         of_cell[i].is_better(of_vertex[v], points[v]))
                       {
                         of_vertex[v] = of_cell[i];
                         is_new[v]    = true;
                       }
-            for (const auto &[from, to, shift] : bridges)
+            bool crossed = false;
+            for (const auto &[from, to, shift] : images)
               if (Origin<dim> image = of_vertex[from]; image.radius >= 0.)
                 {
                   image.center += shift;
@@ -183,6 +197,7 @@ namespace Signoton
                     {
                       of_vertex[to] = image;
                       is_new[to]    = true;
+                      crossed       = true;
                     }
                 }
             news.clear();
@@ -200,7 +215,7 @@ namespace Signoton
                   news.push_back(i);
               }
             is_new.assign(points.size(), false);
-            changes = Utilities::MPI::max(news.empty() ? 0U : 1U,
+            changes = Utilities::MPI::max(news.empty() && !crossed ? 0U : 1U,
                                           mesh.get_communicator()) > 0;
           }
         std::vector<bool> reached(of_cell.size());
@@ -213,54 +228,11 @@ namespace Signoton
       static constexpr unsigned int n_vertices =
         GeometryInfo<dim>::vertices_per_cell;
 
-      /** From a vertex to the same one across a periodic boundary. */
-      struct Bridge
-      {
-        unsigned int   from, to;
-        Tensor<1, dim> shift;
-      };
-
-      void
-      find_bridges()
-      {
-        for (const auto &cell : mesh.active_cell_iterators())
-          if (cell->is_locally_owned() && cell->at_boundary())
-            for (const auto f : cell->face_indices())
-              if (cell->has_periodic_neighbor(f))
-                {
-                  const auto         other = cell->periodic_neighbor(f);
-                  const unsigned int back  = cell->periodic_neighbor_face_no(f);
-                  typename Triangulation<dim>::cell_iterator peer = cell;
-                  while (peer->level() > other->level())
-                    peer = peer->parent();
-                  add_bridges(*cell->face(f),
-                              *other->face(back),
-                              peer->face(f)->center() -
-                                other->face(back)->center());
-                }
-      }
-
-      /** Of vertices that are the same up to the shift from @p there to
-       *  @p here; on a face that is refined, those of the coarse one. */
-      template <typename Face>
-      void
-      add_bridges(const Face           &here,
-                  const Face           &there,
-                  const Tensor<1, dim> &shift)
-      {
-        for (const auto v : here.vertex_indices())
-          for (const auto w : there.vertex_indices())
-            if ((there.vertex(w) + shift).distance(here.vertex(v)) <
-                1e-6 * here.diameter())
-              bridges.push_back(
-                {there.vertex_index(w), here.vertex_index(v), shift});
-      }
-
       const parallel::distributed::Triangulation<dim>  &mesh;
       std::vector<unsigned int>                         own, ghosts;
       std::vector<Point<dim>>                           center;
       std::vector<std::array<unsigned int, n_vertices>> vertices;
-      std::vector<Bridge>                               bridges;
+      std::vector<PeriodicVertex<dim>>                  images;
     };
 
     /** Coarsening that is worth a new mesh, as a part of all cells. */
