@@ -208,6 +208,8 @@ namespace Signoton
     for (std::size_t i = 0; i < fields.size(); ++i)
       {
         ghosted[i].copy_locally_owned_data_from(*fields[i]);
+        // who follows whom at periodic corners is a matter of numbering
+        model.space->mesh_constraints.distribute(ghosted[i]);
         ghosted[i].update_ghost_values();
         saved.push_back(&ghosted[i]);
       }
