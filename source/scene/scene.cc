@@ -280,7 +280,7 @@ namespace Signoton
                           "density zero" :
                           "no density",
                         "a positive number in kg/m^3: waves need inertia",
-                        "add 'set Density = ...'");
+                        "set Density = 1800, for instance");
     const bool linear =
       std::all_of(model.materials.begin(),
                   model.materials.end(),
