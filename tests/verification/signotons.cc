@@ -20,6 +20,14 @@ namespace
     return stream.str();
   }
 
+  std::string
+  title(const std::string &what, const double e0, const double lambda)
+  {
+    std::ostringstream stream;
+    stream << what << ", loosening " << e0 << ", binder " << lambda;
+    return stream.str();
+  }
+
   /** The strip: cells of size length/n, in 2D or 3D. */
   SceneFile
   strip(const int          dim,
@@ -102,35 +110,58 @@ namespace
   }
 
   /** No stress, in any direction, place and sample, is above @p bound: the
-   *  tension of binders, or none. Behind the front, at the end, the velocity
-   *  varies by less than 5 %. */
+   *  tension of binders, or none. */
   void
-  require_steady_line(Report            &report,
-                      const std::string &name,
-                      const int          dim,
-                      const double       bound,
-                      const double       V,
-                      const double       front)
+  require_no_tension(Report            &report,
+                     const std::string &name,
+                     const int          dim,
+                     const double       bound)
   {
-    const auto lines = PhysicalNumbers::read("results/line-1.csv");
-    double     most = -1., variation = 0., end = 0.;
-    for (const auto &line : lines)
+    double most = -1.;
+    for (const auto &line : PhysicalNumbers::read("results/line-1.csv"))
       if (!line.empty())
-        {
-          end = value(line, "time");
-          for (const char *entry : {"stress xx", "stress yy", "stress zz"})
-            if (dim == 3 || entry[7] != 'z')
-              most = std::max(most, value(line, entry));
-        }
-    for (const auto &line : lines)
-      if (!line.empty() && value(line, "time") >= end &&
-          value(line, "distance") < front - 0.05)
-        variation =
-          std::max(variation, std::abs(value(line, "velocity x") / V - 1.));
+        for (const char *entry : {"stress xx", "stress yy", "stress zz"})
+          if (dim == 3 || entry[7] != 'z')
+            most = std::max(most, value(line, entry));
     report.require(name + ", forbidden tension",
                    std::max(0., most - bound),
                    1e-12);
-    report.require(name + ", oscillation behind the front", variation, 0.05);
+  }
+
+  /** At the end, between two places, the velocity is @p expected but for 5 % of
+   *  the jump, and the stress, if there is one. */
+  void
+  require_steady(Report            &report,
+                 const std::string &name,
+                 const double       from,
+                 const double       to,
+                 const double       expected,
+                 const double       jump,
+                 const double       pressure = 0.)
+  {
+    const auto   lines       = PhysicalNumbers::read("results/line-1.csv");
+    double       of_velocity = 0., of_stress = 0.;
+    unsigned int n   = 0;
+    double       end = 0.;
+    for (const auto &line : lines)
+      if (!line.empty())
+        end = value(line, "time");
+    for (const auto &line : lines)
+      if (!line.empty() && value(line, "time") >= end &&
+          value(line, "distance") > from && value(line, "distance") < to)
+        {
+          ++n;
+          of_velocity =
+            std::max(of_velocity,
+                     std::abs(value(line, "velocity x") - expected) / jump);
+          if (pressure > 0.)
+            of_stress =
+              std::max(of_stress,
+                       std::abs(value(line, "stress xx") / pressure + 1.));
+        }
+    report.require(name + ", points on the line", n > 5 ? 0. : 1., 0.);
+    report.require(name + ", oscillation of velocity", of_velocity, 0.05);
+    report.require(name + ", oscillation of stress", of_stress, 0.05);
   }
 
   double
@@ -162,6 +193,24 @@ namespace
         const double a = velocity(lines[i - 1], probe) - level,
                      b = velocity(lines[i], probe) - level;
         if (a < 0. && b >= 0.)
+          return value(lines[i - 1], "time") +
+                 a / (a - b) *
+                   (value(lines[i], "time") - value(lines[i - 1], "time"));
+      }
+    return -1.;
+  }
+
+  /** When the velocity at a probe falls below a value for the last time. */
+  double
+  departure(const std::vector<PhysicalNumbers::Line> &lines,
+            const unsigned int                        probe,
+            const double                              level)
+  {
+    for (std::size_t i = lines.size() - 1; i > 0; --i)
+      {
+        const double a = velocity(lines[i - 1], probe) - level,
+                     b = velocity(lines[i], probe) - level;
+        if (a >= 0. && b < 0.)
           return value(lines[i - 1], "time") +
                  a / (a - b) *
                    (value(lines[i], "time") - value(lines[i - 1], "time"));
@@ -216,8 +265,59 @@ namespace
     for (const auto &line : lines)
       highest = std::max(highest, velocity(line, 3));
     report.require(name + ", overshoot", std::max(0., highest / V - 1.), 0.05);
-    require_steady_line(report, name, dim, lambda * e0, V, 0.8);
+    require_no_tension(report, name, dim, lambda * e0);
+    require_steady(report, name, 0.02, 0.75, V, V, y);
     report.require(name + ", energy", largest_gap(lines), 1e-8);
+    // What a front dissipates follows from its jumps alone. The entry for what
+    // the steps lose belongs to it: a cell is crossed in two or three steps.
+    const double section = std::pow(1. / 400., dim - 1);
+    const double dissipated =
+      section * 0.5 * (1. - lambda) * y * e0 * c * value(last, "time");
+    report.require(name + ", dissipation",
+                   value(last, "shock dissipation") / dissipated - 1.,
+                   0.04);
+    report.require(name + ", dissipation and loss by steps",
+                   (value(last, "shock dissipation") +
+                    value(last, "lost by time stepping")) /
+                       dissipated -
+                     1.,
+                   0.025);
+  }
+
+  /** First order in L1, over every one of three halvings of the cells. */
+  void
+  order(Report &report, const double lambda, const bool by_pressure)
+  {
+    const double e0 = 0.03, y = 0.01,
+                 V = std::sqrt((y + lambda * e0) * (y + e0)), c = V / (y + e0);
+    const std::string name =
+      title(by_pressure ? "L1 error of the velocity, pressure" :
+                          "L1 error of the velocity, piston",
+            e0,
+            lambda);
+    report.out << name << ':' << std::setprecision(2);
+    double before = 0.;
+    for (const unsigned int n : {50, 100, 200, 400})
+      {
+        SceneFile file = strip(2, n, 1., 0.5 / c, lambda);
+        loosen(file, 2, text(e0));
+        if (by_pressure)
+          file.set({"Boundaries", "left"}, "Pressure", text(y));
+        else
+          file.set({"Boundaries", "left"}, "Velocity x", text(V));
+        file.set({"Boundaries", "right"}, "Displacement x", "0");
+        file.set({"Reference solution"},
+                 "Velocity",
+                 text(V) + "*(x < " + text(c) + "*t); 0");
+        const double error =
+          value(run(file).back(), "relative L1 error of velocity");
+        report.out << ' ' << error;
+        if (n > 50)
+          report.require_order(name, std::log2(before / error), 0.9);
+        before = error;
+      }
+    report.out << '\n';
+    report.require(name, before, 0.01);
   }
 
   double
@@ -251,14 +351,16 @@ namespace
   {
     const double w = 0.04, y = strain_of_impact(e0, lambda, w),
                  v = velocity_behind(y, e0, lambda), c = v / (y + e0);
-    const std::string name =
-      "impact, loosening " + text(e0) + ", binder " + text(lambda);
-    SceneFile file = strip(2, 800, 2., 0.45 / c, lambda);
+    const std::string name = title("impact", e0, lambda);
+    SceneFile         file = strip(2, 800, 2., 0.45 / c, lambda);
     loosen(file, 2, text(e0) + "*(x > 1)");
     file.set({"Initial state"}, "Velocity", "0.04*(x < 1 + 1e-9); 0");
     file.set({"Boundaries", "right"}, "Displacement x", "0");
     probe(file, 2, {1.1, 1.2, 1.3});
+    probe_line(file, 2, 2.);
     const auto lines = run(file);
+    require_no_tension(report, name, 2, lambda * e0);
+    require_steady(report, name, 1.05, 1.4, v, v, y);
     report.require(name + ", velocity",
                    velocity(lines.back(), 1) / v - 1.,
                    5e-3);
@@ -290,7 +392,9 @@ namespace
     file.set({"Boundaries", "left"}, "Velocity x", text(V));
     file.set({"Boundaries", "right"}, "Symmetry", "true");
     probe(file, 2, {0.7, 0.95});
-    const auto   last = run(file).back();
+    probe_line(file, 2, 1.);
+    const auto   lines = run(file);
+    const auto  &last  = lines.back();
     const double strain =
       (displacement(last, 2) - displacement(last, 1)) / 0.25 + e0;
     const std::string name = "amplification at V = " + text(V) +
@@ -300,42 +404,70 @@ namespace
     report.require(name + ", of stress",
                    stress(last, 2) / -y / (1. + V / y) - 1.,
                    0.01);
+    require_no_tension(report, name, 2, lambda * e0);
+    // at rest behind the reflected wave, which has the speed 1
+    require_steady(report, name, 0.6, 1., 0., V, y + V);
+    const double back =
+      0.25 / (departure(lines, 1, V / 2.) - departure(lines, 2, V / 2.));
+    report.require(name + ", speed of the reflected wave", back - 1., 0.05);
   }
 
   /** S5: the unloading of an impulse catches its front; a weaker one goes on,
-   *  driven by the momentum that is left. */
-  void
-  impulse(Report      &report,
-          const double e0,
-          const double lambda,
-          const double P,
-          const double T)
+   *  driven by the momentum that is left.
+   *  Returns the error of the stress behind it. */
+  double
+  impulse(Report            &report,
+          const double       e0,
+          const double       lambda,
+          const double       P,
+          const double       T,
+          const unsigned int n = 400)
   {
     const double V = velocity_behind(P, e0, lambda), c = V / (P + e0),
                  caught = T / (1. - c), place = c * caught,
                  y = strain_of_impact(e0, lambda, V - P),
                  v = velocity_behind(y, e0, lambda), c2 = v / (y + e0);
-    const double length = place + 0.2;
-    SceneFile file = strip(2, 800, length, caught + 0.4 * place / c2, lambda);
+    const double length = 1.5 * place;
+    SceneFile    file = strip(2, n, length, caught + 0.4 * place / c2, lambda);
     loosen(file, 2, text(e0));
     file.set({"Boundaries", "left"},
              "Pressure",
              text(P) + "*(t < " + text(T) + ")");
     file.set({"Boundaries", "right"}, "Displacement x", "0");
-    probe(file, 2, {0.8 * place, 1.2 * place});
+    probe(file,
+          2,
+          {0.4 * place, 0.8 * place, 1.1 * place, 1.2 * place, 1.3 * place});
+    probe_line(file, 2, length);
     const auto        lines = run(file);
-    const std::string name =
-      "impulse, loosening " + text(e0) + ", binder " + text(lambda);
+    const auto       &last  = lines.back();
+    const std::string name  = title("impulse", e0, lambda);
     report.require(name + ", first front",
-                   arrival(lines, 1, V / 2.) * c / (0.8 * place) - 1.,
+                   0.4 * place /
+                       (arrival(lines, 2, V / 2.) - arrival(lines, 1, V / 2.)) /
+                       c -
+                     1.,
                    5e-3);
     report.require(name + ", second front",
-                   arrival(lines, 2, v / 2.) / (caught + 0.2 * place / c2) - 1.,
-                   5e-3);
-    report.require(name + ", velocity",
-                   velocity(lines.back(), 2) / v - 1.,
-                   0.02);
+                   0.2 * place /
+                       (arrival(lines, 5, v / 2.) - arrival(lines, 3, v / 2.)) /
+                       c2 -
+                     1.,
+                   7e-3);
+    // The weak rest of the impulse, in parts of what the impulse was: behind
+    // the unloading, which no viscosity smoothes, ripples remain.
+    const double strain =
+      (displacement(last, 4) - displacement(last, 3)) / (0.1 * place) + e0;
+    report.out << name << ", " << n << " cells: velocity, stress, strain"
+               << std::setprecision(2) << ' ' << (velocity(last, 4) - v) / V
+               << ' ' << (stress(last, 4) + y) / P << ' ' << (strain + y) / P
+               << '\n';
+    report.require(name + ", velocity", (velocity(last, 4) - v) / V, 6e-3);
+    report.require(name + ", stress", (stress(last, 4) + y) / P, 0.01);
+    report.require(name + ", strain", (strain + y) / P, 0.015);
+    require_no_tension(report, name, 2, lambda * e0);
+    require_steady(report, name, 1.05 * place, 1.35 * place, v, V);
     report.require(name + ", energy", largest_gap(lines), 1e-8);
+    return std::abs(stress(last, 4) + y) / P;
   }
 
   /** S6: the path of the front where grains are stiff: what the pressure has
@@ -352,11 +484,15 @@ namespace
     file.set({"Boundaries", "left"},
              "Pressure",
              text(P) + "*(1 + sin(" + text(omega) + "*t))");
-    probe(file, 2, {0.});
-    const double closed = displacement(run(file).back(), 1) / e0;
-    report.require("stiff grains, front, loosening " + text(e0),
-                   closed / std::sqrt(2. * impulses / e0) - 1.,
+    const double front = std::sqrt(2. * impulses / e0);
+    probe(file, 2, {0., 0.8 * front});
+    probe_line(file, 2, 0.5);
+    const auto        lines = run(file);
+    const std::string name  = "stiff grains, loosening " + text(e0);
+    report.require(name + ", pores that are closed",
+                   displacement(lines.back(), 1) / e0 / front - 1.,
                    0.01);
+    require_no_tension(report, name, 2, 0.);
   }
 
   /** S7: grains that yield; below the critical loosening there are two fronts.
@@ -437,17 +573,33 @@ namespace
     file.set({"Boundaries", "left"},
              "Pressure",
              text(P) + "*(t < " + text(T) + ")");
-    probe(file, 2, {1. - 4. / 3. * T, 1. - 5. / 6. * T, 1. - T / 6., 1.});
+    probe(file, 2, {1. - 0.75 * T, 1. - 0.25 * T});
+    probe_line(file, 2, 1.);
     const auto        lines = run(file);
     const std::string name  = "spall, duration " + text(T);
-    for (const unsigned int i : {3, 4})
-      report.require(name + ", slab",
-                     velocity(lines.back(), i) / (2. * P) - 1.,
-                     5e-3);
-    for (const unsigned int i : {1, 2})
-      report.require(name + ", rest",
-                     velocity(lines.back(), i) / (2. * P),
-                     5e-3);
+    require_no_tension(report, name, 2, 0.);
+    require_steady(report, name + ", slab", 1. - 0.25 * T, 1., 2. * P, 2. * P);
+    require_steady(report, name + ", rest", 0.5, 1. - 0.75 * T, 0., 2. * P);
+    // the slab leaves with its velocity; it was torn off at T/2 from the end
+    const auto opening = [&](const PhysicalNumbers::Line &line) {
+      return displacement(line, 2) - displacement(line, 1);
+    };
+    const std::size_t late = lines.size() - 1, early = late - late / 10;
+    report.require(name + ", opening of the crack",
+                   (opening(lines[late]) - opening(lines[early])) /
+                       (value(lines[late], "time") -
+                        value(lines[early], "time")) /
+                       (2. * P) -
+                     1.,
+                   5e-3);
+    double crack = 1.;
+    for (const auto &line : PhysicalNumbers::read("results/line-1.csv"))
+      if (!line.empty() && value(line, "time") > 0.999 * (1. + 2. * T) &&
+          value(line, "velocity x") > P)
+        crack = std::min(crack, value(line, "distance"));
+    report.require(name + ", place of the crack",
+                   (1. - crack) / (T / 2.) - 1.,
+                   0.05);
     report.require(name + ", energy", largest_gap(lines), 1e-8);
   }
 
@@ -480,6 +632,20 @@ namespace
                      stress(collision.back(), i) / -0.03 - 1.,
                      0.01);
     front("impulse", scene("impulse"), 0.01, 0.25 / 0.5);
+    if (!suffix.empty())
+      return;
+    const Overrides often = {"Time integration/Statistics every=5"};
+    const auto      path  = source_directory + "/prm/";
+    const auto      yielding =
+      Verification::run(path + "elastic_plastic_signoton.prm", often);
+    report.require(
+      "prm/elastic_plastic_signoton.prm, front",
+      0.2 / (arrival(yielding, 2, 0.01) - arrival(yielding, 1, 0.01)) / 1.1339 -
+        1.,
+      0.01);
+    const auto torn = Verification::run(path + "spall.prm", often).back();
+    report.require("prm/spall.prm, rest", velocity(torn, 1) / 0.02, 5e-3);
+    report.require("prm/spall.prm, slab", velocity(torn, 2) / 0.02 - 1., 5e-3);
   }
 } // namespace
 
@@ -495,34 +661,17 @@ main(int argc, char **argv)
       {
         const double V =
           lambda > 0. ? std::max(0.02, 1.5 * std::sqrt(lambda) * e0) : 0.02;
-        const double       y = strain_behind(e0, lambda, V);
-        std::ostringstream name;
-        name << "loosening " << e0 << ", binder " << lambda;
+        const double y = strain_behind(e0, lambda, V);
         steady_front(
-          report, "piston, " + name.str(), 2, e0, lambda, false, V, y);
+          report, title("piston", e0, lambda), 2, e0, lambda, false, V, y);
         steady_front(
-          report, "pressure, " + name.str(), 2, e0, lambda, true, V, y);
+          report, title("pressure", e0, lambda), 2, e0, lambda, true, V, y);
       }
   steady_front(report, "piston in 3D", 3, 0.03, 0., false, 0.02, 0.01);
 
-  // first order in L1
-  {
-    double before = 0.;
-    for (const unsigned int n : {50, 100, 200, 400})
-      {
-        SceneFile file = strip(2, n, 1., 1.);
-        loosen(file, 2, "0.03");
-        file.set({"Boundaries", "left"}, "Velocity x", "0.02");
-        file.set({"Reference solution"}, "Velocity", "0.02*(x < 0.5*t); 0");
-        const double error =
-          value(run(file).back(), "relative L1 error of velocity");
-        std::cout << n << " " << error << std::endl;
-        if (n == 400)
-          report.require_order("L1 error", std::log2(before / error), 0.9);
-        before = error;
-      }
-    report.require("L1 error", before, 0.01);
-  }
+  for (const double lambda : {0., 0.2})
+    for (const bool by_pressure : {false, true})
+      order(report, lambda, by_pressure);
 
   for (const double lambda : {0., 0.05})
     {
@@ -540,7 +689,9 @@ main(int argc, char **argv)
         yielding_grains(report, part, lambda);
     }
   reflection(report, 0.03, 0., 0.005);
-  impulse(report, 0.03, 0., 0.01, 0.3);
+  const double coarse = impulse(report, 0.03, 0., 0.01, 0.3),
+               fine   = impulse(report, 0.03, 0., 0.01, 0.3, 1600);
+  report.require_order("impulse, stress", 0.5 * std::log2(coarse / fine), 0.5);
   for (const double e0 : {0.03, 0.05, 0.1})
     stiff_grains(report, e0, 2.);
   spall(report, 0.01, 0.3);
