@@ -283,14 +283,14 @@ namespace Signoton
     const Space<dim>                      &space;
     const std::vector<Rheology::Material> &materials;
     // by material, as to find them a scheme is read
-    std::vector<Rheology::Law>             laws;
-    std::vector<Moduli>                    elasticity;
-    std::vector<double>                    longitudinal_speed; ///< in m/s
-    double                                 time_step = 1.;
-    typename Mechanics<dim>::InitialState  initial_state;
-    ShockViscosity                         shock_viscosity;
-    double                                 quiet_displacement = -1.; ///< in m
-    std::vector<unsigned int>              material_of_id;
+    std::vector<Rheology::Law>            laws;
+    std::vector<Moduli>                   elasticity;
+    std::vector<double>                   longitudinal_speed; ///< in m/s
+    double                                time_step = 1.;
+    typename Mechanics<dim>::InitialState initial_state;
+    ShockViscosity                        shock_viscosity;
+    double                                quiet_displacement = -1.; ///< in m
+    std::vector<unsigned int>             material_of_id;
 
     Data data;
     // By the constraints, different unknowns of other ranks may be ghosts here.

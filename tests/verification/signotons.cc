@@ -453,6 +453,12 @@ namespace
                        c2 -
                      1.,
                    7e-3);
+    report.require(name + ", arrival of the second front",
+                   arrival(lines, 4, v / 2.) / (caught + 0.2 * place / c2) - 1.,
+                   5e-3);
+    report.require(name + ", velocity of the rest",
+                   velocity(last, 4) / v - 1.,
+                   0.02);
     // The weak rest of the impulse, in parts of what the impulse was: behind
     // the unloading, which no viscosity smoothes, ripples remain.
     const double strain =
@@ -573,13 +579,28 @@ namespace
     file.set({"Boundaries", "left"},
              "Pressure",
              text(P) + "*(t < " + text(T) + ")");
-    probe(file, 2, {1. - 0.75 * T, 1. - 0.25 * T});
+    probe(file,
+          2,
+          {1. - 0.75 * T,
+           1. - 0.25 * T,
+           1. - 4. / 3. * T,
+           1. - 5. / 6. * T,
+           1. - T / 6.,
+           1.});
     probe_line(file, 2, 1.);
     const auto        lines = run(file);
     const std::string name  = "spall, duration " + text(T);
     require_no_tension(report, name, 2, 0.);
     require_steady(report, name + ", slab", 1. - 0.25 * T, 1., 2. * P, 2. * P);
     require_steady(report, name + ", rest", 0.5, 1. - 0.75 * T, 0., 2. * P);
+    for (const unsigned int i : {3, 4})
+      report.require(name + ", rest",
+                     velocity(lines.back(), i) / (2. * P),
+                     5e-3);
+    for (const unsigned int i : {5, 6})
+      report.require(name + ", slab",
+                     velocity(lines.back(), i) / (2. * P) - 1.,
+                     5e-3);
     // the slab leaves with its velocity; it was torn off at T/2 from the end
     const auto opening = [&](const PhysicalNumbers::Line &line) {
       return displacement(line, 2) - displacement(line, 1);
