@@ -97,8 +97,10 @@ namespace Signoton::Rheology
   double
   Network::evaluate()
   {
-    project<false>(false);
     const unsigned int n = rhs.size();
+    if (n == 0) // springs and dampers alone
+      return 0.;
+    project<false>(false);
     for (unsigned int i = 0; i < n; ++i)
       work[i] = leaves[i / 6].reflected(i % 6);
     controlled.vmult(rhs, work);
