@@ -1,6 +1,5 @@
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <iostream>
 
@@ -122,7 +121,7 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  MPISession mpi(argc, argv);
   const bool is_root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   try
     {

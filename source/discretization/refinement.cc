@@ -5,6 +5,8 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <optional>
+
 namespace Signoton
 {
   void
@@ -284,8 +286,7 @@ namespace Signoton
     GridTools::exchange_cell_data_to_ghosts<unsigned int>(
       space.mesh,
       [&](const auto &cell) {
-        return std_cxx17::optional<unsigned int>(
-          region[cell->active_cell_index()]);
+        return std::optional<unsigned int>(region[cell->active_cell_index()]);
       },
       [&](const auto &cell, const unsigned int value) {
         all_regions[cell->active_cell_index()] = value;

@@ -3,6 +3,8 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <optional>
+
 namespace Signoton
 {
   template <int dim>
@@ -23,7 +25,7 @@ namespace Signoton
     GridTools::exchange_cell_data_to_ghosts<SymmetricTensor<2, dim>>(
       space.mesh,
       [&](const auto &cell) {
-        return std_cxx17::optional<SymmetricTensor<2, dim>>(
+        return std::optional<SymmetricTensor<2, dim>>(
           stress[cell->active_cell_index()]);
       },
       [&](const auto &cell, const SymmetricTensor<2, dim> &value) {

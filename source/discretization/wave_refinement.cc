@@ -4,6 +4,8 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <optional>
+
 namespace Signoton
 {
   void
@@ -172,7 +174,7 @@ namespace Signoton
             GridTools::exchange_cell_data_to_ghosts<Origin<dim>>(
               mesh,
               [&](const auto &cell) {
-                return std_cxx17::optional<Origin<dim>>(
+                return std::optional<Origin<dim>>(
                   of_cell[cell->active_cell_index()]);
               },
               [&](const auto &cell, const Origin<dim> &origin) {

@@ -417,7 +417,7 @@ namespace Signoton
     // dimension, and up to 15 % more in three. The hoop strain of cells on an
     // axis of rotation doubles the frequency. tests/verification/stable_step
     // compares all that with the power method.
-    constexpr double factor = degree == 1 ? 1. : 1. / (1.15 * std::sqrt(6.));
+    const double factor = degree == 1 ? 1. : 1. / (1.15 * std::sqrt(6.));
     constexpr unsigned int n_extensions = Embedding::axisymmetric ? 3 : dim;
     std::vector<double>    size(materials.size(),
                              std::numeric_limits<double>::max());

@@ -1,6 +1,7 @@
 // A mesh that has all the unknowns it may have follows what moves: it coarsens
 // behind and refines ahead, on any number of ranks.
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/discretization/refinement.h>
 
 #include <deal.II/grid/grid_generator.h>
@@ -76,8 +77,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  std::ofstream                    out;
+  MPISession    mpi(argc, argv);
+  std::ofstream out;
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     out.open("output");
   follow<2>(out, 1200.);

@@ -1,9 +1,8 @@
 // Output that cannot be written and checkpoints that do not fit: each has its
 // own message and status, and what was written before stays.
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <sys/resource.h>
 
@@ -49,7 +48,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  MPISession mpi(argc, argv);
   output.open("output");
   for (const char *old : {"results", "good", "no_room", "file", "damaged"})
     fs::remove_all(old);

@@ -104,11 +104,11 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  ConditionalOStream               out(std::cout,
+  Signoton::MPISession mpi(argc, argv);
+  ConditionalOStream   out(std::cout,
                          Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
-  const unsigned int               finest = argc > 1 ? std::stoi(argv[1]) : 6;
-  const Run                        reference = run(finest, "");
+  const unsigned int   finest    = argc > 1 ? std::stoi(argv[1]) : 6;
+  const Run            reference = run(finest, "");
   std::vector<std::pair<double, double>> unknown_steps, seconds;
   out << "| mesh | error | million unknowns by steps | seconds | unknowns by "
          "steps of uniform | seconds of uniform |\n"

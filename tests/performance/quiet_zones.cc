@@ -10,8 +10,8 @@ using namespace Verification;
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  ConditionalOStream               out(std::cout,
+  Signoton::MPISession mpi(argc, argv);
+  ConditionalOStream   out(std::cout,
                          Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
   out << "| scene | quiet cells, mean | seconds | without quiet zones | ratio "
          "|\n|---|--:|--:|--:|--:|\n";

@@ -2,6 +2,7 @@
 // elasticity on the same mesh in the same run: the best of several turns, taken
 // in turns. Points are active if the contact or the hinge gives way.
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
 
 #include <deal.II/numerics/vector_tools_interpolate.h>
@@ -158,7 +159,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  MPISession mpi(argc, argv);
   std::printf(
     "| mesh | material | active | million unknowns a second | time of "
     "elastic |\n|---|---|--:|--:|--:|\n");

@@ -4,9 +4,9 @@
 #include "verdicts.h"
 
 #include <signoton/base/function.h>
+#include <signoton/base/mpi_session.h>
 #include <signoton/drivers/point.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
@@ -72,9 +72,9 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Verdicts                         verdict;
-  const auto                       near = [](const double a, const double b) {
+  MPISession mpi(argc, argv);
+  Verdicts   verdict;
+  const auto near = [](const double a, const double b) {
     std::cout << a << " " << b << std::endl;
     return std::abs(a - b) <= 1e-8 * std::abs(b);
   };

@@ -1,10 +1,9 @@
 // What a scene does not call for takes no memory: the bill, and the bytes that
 // are really allocated, for a scene of each rheology.
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/requirements.h>
 #include <signoton/scene/scene.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <iostream>
 
@@ -143,8 +142,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::string                cone =
+  MPISession        mpi(argc, argv);
+  const std::string cone =
     "\nset Admissible set = mises schleicher\nset Friction parameter = 0.5";
   bool ok = check("elastic", "");
   ok &= check("elastic granular", cone + "\nset Binder = proportional");

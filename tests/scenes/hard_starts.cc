@@ -4,9 +4,8 @@
 #include "physical_numbers.h"
 #include "verdicts.h"
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <cmath>
 #include <fstream>
@@ -77,8 +76,8 @@ subsection Materials
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Verdicts                         verdict;
+  MPISession mpi(argc, argv);
+  Verdicts   verdict;
   using PhysicalNumbers::value;
 
   // uniaxial strain far below the yield stress: elastic in closed form

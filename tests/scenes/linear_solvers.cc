@@ -4,17 +4,16 @@
 #include "physical_numbers.h"
 #include "verdicts.h"
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
-
-#include <deal.II/base/mpi.h>
 
 using namespace Signoton;
 
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Verdicts                         verdict;
+  MPISession mpi(argc, argv);
+  Verdicts   verdict;
   for (const std::string scene : {"adaptive_granular", "adaptive_plastic"})
     {
       PhysicalNumbers::Line                       reference;

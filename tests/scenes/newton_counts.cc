@@ -8,8 +8,8 @@ using namespace Signoton;
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Verdicts                         verdict;
+  MPISession mpi(argc, argv);
+  Verdicts   verdict;
   for (const std::string degree : {"1", "2"})
     {
       verdict("plane strain, degree " + degree,

@@ -4,9 +4,9 @@
 #include "physical_numbers.h"
 #include "verdicts.h"
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/table_handler.h>
 
 #include <iostream>

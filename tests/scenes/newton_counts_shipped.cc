@@ -9,9 +9,9 @@ using namespace Signoton;
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Verdicts                         verdict;
-  const auto                       count = [&](const std::string              &scene,
+  MPISession mpi(argc, argv);
+  Verdicts   verdict;
+  const auto count = [&](const std::string              &scene,
                          const std::string              &material,
                          const std::vector<std::string> &settings) {
     verdict(

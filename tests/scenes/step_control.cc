@@ -4,9 +4,8 @@
 #include "physical_numbers.h"
 #include "verdicts.h"
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <cmath>
 
@@ -39,9 +38,9 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Verdicts                         verdict;
-  const auto                       whole = run({});
+  MPISession mpi(argc, argv);
+  Verdicts   verdict;
+  const auto whole = run({});
   verdict("whole steps", whole.size() == 2);
 
   const auto cut  = run({"Newton/Maximum iterations=5"});

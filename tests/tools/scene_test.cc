@@ -4,9 +4,8 @@
 
 #include "physical_numbers.h"
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <iostream>
 
@@ -14,7 +13,7 @@ int
 main(int argc, char **argv)
 {
   using namespace Signoton;
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  MPISession mpi(argc, argv);
   const bool root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   Options    options;
   options.scene_file       = argv[1];

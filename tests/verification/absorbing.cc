@@ -116,8 +116,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
+  Signoton::MPISession mpi(argc, argv);
+  Report               report;
   for (const int dim : {2, 3})
     for (const unsigned int degree : {1, 2})
       for (const bool is_shear : {false, true})

@@ -94,8 +94,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
+  Signoton::MPISession mpi(argc, argv);
+  Report               report;
   for (const double w : {0.5, 1., 2., 3.})
     threshold(report, 2, w);
   threshold(report, 3, 1.);

@@ -372,8 +372,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
+  Signoton::MPISession mpi(argc, argv);
+  Report               report;
   order(report);
   explicit_order(report);
   damped(report);

@@ -337,8 +337,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
+  Signoton::MPISession mpi(argc, argv);
+  Report               report;
   // the exact solutions against numbers computed by other means
   report.require("line load, exact at 0.06 s",
                  line_load(0.06, 10., 0.25, 1e6, 0.02) / -5.0530284e-4 - 1.,

@@ -291,8 +291,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
+  Signoton::MPISession mpi(argc, argv);
+  Report               report;
   for (const bool granular : {false, true})
     for (const unsigned int degree : {1U, 2U})
       {

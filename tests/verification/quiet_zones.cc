@@ -76,8 +76,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
+  Signoton::MPISession mpi(argc, argv);
+  Report               report;
   for (const std::string rheology :
        {"elastic", "elastic granular", "elastic plastic granular"})
     for (const int dim : {2, 3})

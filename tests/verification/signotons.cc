@@ -676,8 +676,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
+  Signoton::MPISession mpi(argc, argv);
+  Report               report;
 
   // S1 and S2: three loosenings, without and with binder, in 2D and 3D
   for (const double e0 : {0.01, 0.03, 0.1})

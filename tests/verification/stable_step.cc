@@ -79,8 +79,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
+  MPISession mpi(argc, argv);
+  Report     report;
   const auto check = [&](const std::string &name, const double found) {
     std::cout << name << ": " << found << std::endl;
     report.require(name + ", above the stable step by",

@@ -5,9 +5,8 @@
 #include "physical_numbers.h"
 #include "verdicts.h"
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <iostream>
 
@@ -37,8 +36,8 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Verdicts                         verdict;
+  MPISession mpi(argc, argv);
+  Verdicts   verdict;
 
   const auto check = [&](const std::string         &what,
                          const std::vector<double> &load,

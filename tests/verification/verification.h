@@ -3,6 +3,7 @@
 
 #include "physical_numbers.h"
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
 
 #include <deal.II/base/convergence_table.h>
@@ -208,8 +209,8 @@ namespace Verification
   inline int
   main(int argc, char **argv, const std::function<void(Report &)> &test)
   {
-    Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    Report                           report;
+    Signoton::MPISession mpi(argc, argv);
+    Report               report;
     try
       {
         test(report);

@@ -1,0 +1,37 @@
+#ifndef signoton_base_mpi_session_h
+#define signoton_base_mpi_session_h
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Signoton
+{
+  using namespace dealii;
+
+  /**
+   * MPI, and the libraries that deal.II starts with it, from here to the end
+   * of the scope of this object; one thread a rank. They are told the name of
+   * the program alone: PETSc, where deal.II has it, would read our command
+   * line as its own, answer `--help`, and print the options that it did not
+   * use to standard output, into what is written there.
+   */
+  class MPISession
+  {
+  public:
+    MPISession(const int argc, char **argv)
+      : count(std::min(argc, 1))
+      , name{count == 1 ? argv[0] : nullptr, nullptr}
+      , arguments(name)
+      , mpi(count, arguments, 1)
+    {}
+
+  private:
+    int                              count;
+    char                            *name[2];
+    char                           **arguments;
+    Utilities::MPI::MPI_InitFinalize mpi;
+  };
+} // namespace Signoton
+
+#endif
