@@ -1,3 +1,4 @@
+#include <signoton/base/blas.h>
 #include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
 
@@ -43,7 +44,8 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
           text = help;
         else if (arguments[i] == "--version")
           text = "Signoton " SIGNOTON_VERSION
-                 ", deal.II " DEAL_II_PACKAGE_VERSION "\n";
+                 ", deal.II " DEAL_II_PACKAGE_VERSION ", " +
+                 BLAS::name() + "\n";
         else if (arguments[i] == "--template")
           text =
             scene_template(i + 1 < arguments.size() ? arguments[i + 1] : "");

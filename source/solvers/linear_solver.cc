@@ -1,3 +1,4 @@
+#include <signoton/base/blas.h>
 #include <signoton/solvers/linear_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
@@ -7,8 +8,26 @@
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
+#include <iostream>
+
 namespace Signoton
 {
+  namespace
+  {
+    /** Say once that there are better ones. */
+    void
+    warn_of_slow_blas(const MPI_Comm &communicator)
+    {
+      static bool said = false;
+      if (!said && BLAS::is_reference() &&
+          Utilities::MPI::this_mpi_process(communicator) == 0)
+        std::cout << "  warning: the reference BLAS factorizes, ten times "
+                     "slower than others (Debian: libopenblas0-serial)"
+                  << std::endl;
+      said = true;
+    }
+  } // namespace
+
   void
   LinearSolver::Parameters::add_parameters(ParameterHandler &handler)
   {
@@ -91,6 +110,8 @@ namespace Signoton
           matrix->m() > 10000 && Amesos().Query("Amesos_Mumps") ?
             "Amesos_Mumps" :
             "Amesos_Klu";
+        if (package == "Amesos_Mumps")
+          warn_of_slow_blas(matrix->get_mpi_communicator());
         direct_control = std::make_unique<SolverControl>(1, 0.);
         direct         = std::make_unique<TrilinosWrappers::SolverDirect>(
           *direct_control,

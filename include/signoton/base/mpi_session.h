@@ -1,6 +1,8 @@
 #ifndef signoton_base_mpi_session_h
 #define signoton_base_mpi_session_h
 
+#include <signoton/base/blas.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -10,8 +12,8 @@ namespace Signoton
   using namespace dealii;
 
   /**
-   * MPI, and the libraries that deal.II starts with it, from here to the end
-   * of the scope of this object; one thread a rank. They are told the name of
+   * MPI, and the libraries that deal.II starts with it, as long as this object
+   * lives; one thread a rank, in the BLAS as well. They are told the name of
    * the program alone: PETSc, where deal.II has it, would read our command
    * line as its own, answer `--help`, and print the options that it did not
    * use to standard output, into what is written there.
@@ -24,7 +26,9 @@ namespace Signoton
       , name{count == 1 ? argv[0] : nullptr, nullptr}
       , arguments(name)
       , mpi(count, arguments, 1)
-    {}
+    {
+      BLAS::use_one_thread();
+    }
 
   private:
     int                              count;
