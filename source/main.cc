@@ -25,6 +25,8 @@ compression differently
                                      directory, on any number of ranks
   signoton --set 'Section/Key=value' override one entry; may be repeated
   signoton --output DIRECTORY        write results there
+  signoton --trust-geometry          let .geo files execute programs and write
+                                     files, which they cannot otherwise
   signoton --help, --version
   mpirun -np N signoton SCENE.prm    the same on N ranks
 
@@ -87,6 +89,8 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
           action = once(action, word);
         else if (word == "--set")
           options.overrides.push_back(next());
+        else if (word == "--trust-geometry")
+          options.trust_geometry = true;
         else if (word == "--output")
           options.output_directory = once(options.output_directory, next());
         else if (word == "--resume")
@@ -94,7 +98,7 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
         else if (word.rfind("-", 0) == 0)
           refuse("unknown option '" + word + "'",
                  "one of --explain, --validate, --template, --resume, --set, "
-                 "--output, --help, --version");
+                 "--output, --trust-geometry, --help, --version");
         else
           options.scene_file = once(options.scene_file, word);
       }

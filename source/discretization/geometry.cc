@@ -1,21 +1,14 @@
 #include <signoton/base/function.h>
 #include <signoton/discretization/geometry.h>
+#include <signoton/discretization/mesh_reader.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_nothing.h>
-#include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <gmsh.h>
-
-#include <filesystem>
-#include <fstream>
+#include <new>
 #include <set>
 #include <sstream>
-#include <unistd.h>
 
 namespace Signoton
 {
@@ -75,6 +68,12 @@ namespace Signoton
       return result;
     }
 
+    std::string
+    cells_of(const int dim)
+    {
+      return dim == 2 ? "quadrilaterals" : "hexahedra";
+    }
+
     bool
     is_number(const std::string &text)
     {
@@ -94,82 +93,25 @@ namespace Signoton
       return std::stoul(text);
     }
 
-    /** The physical groups of codimension one in a .msh file. */
-    BoundaryNames
-    physical_names(const std::string &msh, const int dim)
+    /** A name that no part of the boundary has yet. */
+    std::string
+    free_name(const BoundaryNames &names, const std::string &wanted)
     {
-      BoundaryNames      names;
-      std::istringstream stream(msh);
-      std::string        line;
-      while (std::getline(stream, line))
-        if (line.rfind("$PhysicalNames", 0) == 0)
-          {
-            unsigned int n = 0;
-            stream >> n;
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                int entity_dim = 0, tag = 0;
-                stream >> entity_dim >> tag;
-                std::getline(stream, line);
-                const auto first = line.find('"'), last = line.rfind('"');
-                if (entity_dim == dim - 1 && first < last)
-                  names[line.substr(first + 1, last - first - 1)] = tag;
-              }
-          }
-      return names;
+      std::string name = wanted;
+      for (unsigned int n = 2; names.count(name) > 0; ++n)
+        name = wanted + " " + std::to_string(n);
+      return name;
     }
 
-    /** The center of a cell whose Jacobian is not positive at each vertex, or
-     *  nothing. */
     template <int dim>
-    std::string
-    folded_cell(const Triangulation<dim> &mesh)
+    unsigned int
+    count_faces(const Triangulation<dim> &mesh, const types::boundary_id id)
     {
-      const FE_Nothing<dim> fe;
-      FEValues<dim>         values(fe, QTrapezoid<dim>(), update_jacobians);
+      unsigned int n = 0;
       for (const auto &cell : mesh.active_cell_iterators())
-        {
-          values.reinit(cell);
-          for (const auto q : values.quadrature_point_indices())
-            if (!(values.jacobian(q).determinant() > 0.))
-              {
-                std::ostringstream center;
-                center << cell->center();
-                return center.str();
-              }
-        }
-      return "";
-    }
-
-    /** Mesh a .geo file; returns the text of a .msh file, or an error behind
-     *  an exclamation mark. */
-    std::string
-    run_gmsh(const std::string &geo_file, const int dim)
-    {
-      std::string error, text;
-      const auto  msh_file = (std::filesystem::temp_directory_path() /
-                             ("signoton-" + std::to_string(getpid()) + ".msh"))
-                              .string();
-      gmsh::initialize();
-      gmsh::option::setNumber("General.Terminal", 0);
-      gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
-      try
-        {
-          gmsh::open(geo_file);
-          gmsh::model::mesh::generate(dim);
-          gmsh::write(msh_file);
-          std::stringstream stream;
-          stream << std::ifstream(msh_file).rdbuf();
-          text = stream.str();
-        }
-      catch (...) // gmsh throws integers or strings, by version
-        {
-          gmsh::logger::getLastError(error);
-          error = "!" + (error.empty() ? "gmsh gave up" : error);
-        }
-      gmsh::finalize();
-      std::filesystem::remove(msh_file);
-      return error.empty() ? text : error;
+        for (const auto &face : cell->face_iterators())
+          n += face->at_boundary() && face->boundary_id() == id;
+      return n;
     }
   } // namespace
 
@@ -189,7 +131,15 @@ namespace Signoton
                           "A gmsh file, .msh or .geo, of quadrilaterals or "
                           "hexahedra, instead of a generator; relative to "
                           "the scene file. Physical groups name the "
-                          "boundaries.");
+                          "boundaries; faces without a group are 'unnamed'.");
+    handler.add_parameter("Meshing time limit",
+                          meshing_time,
+                          "Seconds that gmsh may take for a .geo file.",
+                          Patterns::Double(1e-3));
+    handler.add_parameter("Meshing memory limit",
+                          meshing_memory,
+                          "Gigabytes that gmsh may take for a .geo file.",
+                          Patterns::Double(1e-3));
     handler.add_parameter(
       "Boundary names",
       boundary_names,
@@ -228,6 +178,15 @@ namespace Signoton
       file.has(section, "Generator") && !file.has(section, "Arguments") ?
         "" :
         this->arguments;
+    const auto refuse = [&](const std::string &found) {
+      throw UserError(
+        file.where(section, "Generator"),
+        "'" + generator + "' with arguments '" + arguments + "', " + found,
+        "a function of dealii::GridGenerator for " + std::to_string(dim) +
+          "D and all its arguments without default",
+        "compare the manual of GridGenerator: ':' separates arguments, ',' "
+        "coordinates, and booleans are 'true' or 'false'");
+    };
     try
       {
         GridGenerator::generate_from_name_and_arguments(mesh,
@@ -238,82 +197,31 @@ namespace Signoton
       {
         std::ostringstream details;
         error.print_info(details);
-        throw UserError(
-          file.where(section, "Generator"),
-          "'" + generator + "' with arguments '" + arguments +
-            "', refused by deal.II" +
-            (details.str().empty() ? "" :
-                                     ": " + Utilities::trim(details.str())),
-          "a function of dealii::GridGenerator for " + std::to_string(dim) +
-            "D and all its arguments without default",
-          "compare the manual of GridGenerator: ':' separates arguments, ',' "
-          "coordinates, and booleans are 'true' or 'false'");
+        refuse(
+          "refused by deal.II" +
+          (details.str().empty() ? "" : ": " + Utilities::trim(details.str())));
       }
-  }
-
-  template <int dim>
-  BoundaryNames
-  Geometry::read(const SceneFile    &file,
-                 const MPI_Comm     &communicator,
-                 Triangulation<dim> &mesh) const
-  {
-    const std::filesystem::path given(mesh_file);
-    const std::string           path =
-      given.is_absolute() ?
-                  mesh_file :
-                  (std::filesystem::path(file.directory()) / given).string();
-    const auto refuse = [&](const std::string &found) {
-      throw UserError(file.where(section, "Mesh file"),
-                      found,
-                      "a gmsh file of " +
-                        std::string(dim == 2 ? "quadrilaterals" : "hexahedra"),
-                      "check the name, relative to the scene file; in a .geo "
-                      "file use 'Recombine Surface', transfinite or extruded "
-                      "meshes, and physical groups for volumes and "
-                      "boundaries");
-    };
-
-    std::string text;
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    catch (const std::bad_alloc &)
       {
-        if (!std::ifstream(path))
-          text = "!'" + path + "', which cannot be opened";
-        else if (given.extension() == ".geo")
-          text = run_gmsh(path, dim);
-        else
-          {
-            std::stringstream stream;
-            stream << std::ifstream(path).rdbuf();
-            text = stream.str();
-          }
+        refuse("for which there is not enough memory");
       }
-    text = Utilities::MPI::broadcast(communicator, text);
-    if (text.empty() || text[0] == '!')
-      refuse(text.empty() ? "'" + path + "', an empty file" : text.substr(1));
-
-    try
+    catch (const std::exception &)
       {
-        GridIn<dim>        reader(mesh);
-        std::istringstream stream(text);
-        reader.read_msh(stream);
+        refuse("refused by deal.II");
       }
-    catch (const std::exception &error)
-      {
-        refuse("'" + path + "', which deal.II cannot read as a mesh");
-      }
-    if (!mesh.all_reference_cells_are_hyper_cube())
-      refuse("'" + path + "' with triangles or tetrahedra");
+    if (mesh.n_levels() != 1 || !mesh.all_reference_cells_are_hyper_cube())
+      refuse("which is no coarse mesh of " + cells_of(dim));
     if (const std::string folded = folded_cell(mesh); !folded.empty())
-      refuse("'" + path + "' with a folded or inverted cell around " + folded);
-    return physical_names(text, dim);
+      refuse("with a folded or inverted cell around " + folded);
   }
 
   template <int dim>
   void
-  Geometry::apply_names(const SceneFile    &file,
-                        const Constants    &constants,
-                        Triangulation<dim> &mesh,
-                        BoundaryNames      &names) const
+  Geometry::apply_names(const SceneFile          &file,
+                        const Constants          &constants,
+                        Triangulation<dim>       &mesh,
+                        BoundaryNames            &names,
+                        std::vector<std::string> &notes) const
   {
     const std::string            where = file.where(section, "Boundary names");
     std::set<types::boundary_id> used;
@@ -365,7 +273,17 @@ namespace Signoton
       if (std::none_of(names.begin(), names.end(), [id](const auto &entry) {
             return entry.second == id;
           }))
-        names[std::to_string(id)] = id;
+        {
+          const bool        no_group = id == 0 && !mesh_file.empty();
+          const std::string name =
+            free_name(names, no_group ? "unnamed" : std::to_string(id));
+          names[name] = id;
+          if (no_group)
+            notes.push_back(std::to_string(count_faces(mesh, id)) +
+                            " faces of the boundary belong to no "
+                            "group, they are called '" +
+                            name + "'");
+        }
   }
 
   template <int dim>
@@ -444,7 +362,8 @@ namespace Signoton
   BoundaryParts
   Geometry::create(const SceneFile                           &file,
                    const Constants                           &constants,
-                   parallel::distributed::Triangulation<dim> &mesh) const
+                   parallel::distributed::Triangulation<dim> &mesh,
+                   std::vector<std::string>                  &notes) const
   {
     if (!mesh_file.empty() && file.has(section, "Generator"))
       throw UserError(file.where(section, "Mesh file"),
@@ -467,9 +386,9 @@ namespace Signoton
             parts.names[name] = id;
       }
     else
-      parts.names = read(file, mesh.get_communicator(), coarse);
+      parts.names = read(file, mesh.get_communicator(), coarse, notes);
     apply_material_ids(file, constants, coarse);
-    apply_names(file, constants, coarse, parts.names);
+    apply_names(file, constants, coarse, parts.names, notes);
     parts.periodic = find_periodic_pairs(file, coarse, parts.names);
     if (distortion > 0.)
       GridTools::distort_random(distortion, coarse, true);
@@ -500,9 +419,11 @@ namespace Signoton
   template BoundaryParts
   Geometry::create<2>(const SceneFile &,
                       const Constants &,
-                      parallel::distributed::Triangulation<2> &) const;
+                      parallel::distributed::Triangulation<2> &,
+                      std::vector<std::string> &) const;
   template BoundaryParts
   Geometry::create<3>(const SceneFile &,
                       const Constants &,
-                      parallel::distributed::Triangulation<3> &) const;
+                      parallel::distributed::Triangulation<3> &,
+                      std::vector<std::string> &) const;
 } // namespace Signoton

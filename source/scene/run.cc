@@ -38,6 +38,7 @@ namespace Signoton
       if (scene.model.output.directory.empty())
         scene.model.output.directory =
           "output/" + std::filesystem::path(options.scene_file).stem().string();
+      scene.model.geometry.trust_geometry = options.trust_geometry;
       scene.build();
       const unsigned int ranks = Utilities::MPI::n_mpi_processes(communicator);
       screen << "Signoton " SIGNOTON_VERSION " on " << ranks
@@ -46,6 +47,8 @@ namespace Signoton
              << "\n";
       for (const auto &warning : scene.warnings)
         screen << "  warning: " << warning << "\n";
+      for (const auto &note : scene.notes)
+        screen << "  mesh: " << note << "\n";
       if (options.action != Options::Action::run)
         {
           if (scene.model.is_dynamic)

@@ -331,7 +331,8 @@ namespace Signoton
     auto &space = *model.space;
     {
       const auto timer = model.ledger.time("setup");
-      space.boundary = model.geometry.create(model.file, constants, space.mesh);
+      space.boundary =
+        model.geometry.create(model.file, constants, space.mesh, notes);
     }
     check_materials();
     for (auto &condition : model.conditions)

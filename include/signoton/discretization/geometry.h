@@ -24,7 +24,8 @@ namespace Signoton
   };
 
   /** What the rest of a scene needs to know of the boundary of a mesh. Parts
-   *  that nobody named are called by their number. */
+   *  that nobody named are called by their number; faces of a mesh file that
+   *  belong to no group are called `unnamed`. */
   struct BoundaryParts
   {
     BoundaryNames             names;
@@ -46,32 +47,39 @@ namespace Signoton
      * Create the mesh, identically on every rank.
      * @param file the scene, to resolve file names and to place complaints
      * @param constants for the expressions that select faces and cells
+     * @param notes what to say of the mesh before a run is added to them
      */
     template <int dim>
     BoundaryParts
     create(const SceneFile                           &file,
            const Constants                           &constants,
-           parallel::distributed::Triangulation<dim> &mesh) const;
+           parallel::distributed::Triangulation<dim> &mesh,
+           std::vector<std::string>                  &notes) const;
 
     unsigned int initial_refinement = 0;
+    /** Whether a .geo file may execute programs and write files. */
+    bool trust_geometry = false;
 
   private:
     template <int dim>
     void
     generate(const SceneFile &file, Triangulation<dim> &mesh) const;
 
+    /** Read the mesh file, on the first rank alone, and make a mesh of it. */
     template <int dim>
     BoundaryNames
-    read(const SceneFile    &file,
-         const MPI_Comm     &communicator,
-         Triangulation<dim> &mesh) const;
+    read(const SceneFile          &file,
+         const MPI_Comm           &communicator,
+         Triangulation<dim>       &mesh,
+         std::vector<std::string> &notes) const;
 
     template <int dim>
     void
-    apply_names(const SceneFile    &file,
-                const Constants    &constants,
-                Triangulation<dim> &mesh,
-                BoundaryNames      &names) const;
+    apply_names(const SceneFile          &file,
+                const Constants          &constants,
+                Triangulation<dim>       &mesh,
+                BoundaryNames            &names,
+                std::vector<std::string> &notes) const;
 
     template <int dim>
     std::vector<PeriodicPair>
@@ -92,6 +100,8 @@ namespace Signoton
     std::string material_ids   = "";
     std::string periodic       = "";
     double      distortion     = 0.;
+    double      meshing_time   = 60.;
+    double      meshing_memory = 4.;
   };
 } // namespace Signoton
 

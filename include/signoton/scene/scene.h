@@ -19,6 +19,7 @@ namespace Signoton
 
     Action                   action = Action::run;
     bool                     point  = false; ///< one material point, no body
+    bool                     trust_geometry = false; ///< see mesh_geometry()
     std::string              scene_file;
     std::string              output_directory;
     std::string              resume_directory;
@@ -49,6 +50,8 @@ namespace Signoton
     std::string analysis = "statics";
     /** What is in the file without an effect. */
     std::vector<std::string> warnings;
+    /** What there is to say of the mesh. */
+    std::vector<std::string> notes;
 
   private:
     /** One file may switch between analyses: drop what only the others use,
