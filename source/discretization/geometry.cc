@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
 
 #include <new>
 #include <set>
@@ -112,6 +113,30 @@ namespace Signoton
         for (const auto &face : cell->face_iterators())
           n += face->at_boundary() && face->boundary_id() == id;
       return n;
+    }
+
+    /** Let transfinite interpolations refer to a coarse mesh that was copied:
+     *  they look their cells up, and know those they were made for. */
+    template <int dim>
+    void
+    renew_interpolations(const Triangulation<dim> &original,
+                         Triangulation<dim>       &mesh)
+    {
+      using Interpolation = TransfiniteInterpolationManifold<dim>;
+      std::vector<types::manifold_id> ids;
+      for (const auto id : original.get_manifold_ids())
+        if (id != numbers::flat_manifold_id &&
+            dynamic_cast<const Interpolation *>(&original.get_manifold(id)))
+          ids.push_back(id);
+      // a new one looks at the cells as they are without it
+      for (const auto id : ids)
+        mesh.set_manifold(id, FlatManifold<dim>());
+      for (const auto id : ids)
+        {
+          Interpolation inside;
+          inside.initialize(mesh);
+          mesh.set_manifold(id, inside);
+        }
     }
   } // namespace
 
@@ -393,6 +418,7 @@ namespace Signoton
     if (distortion > 0.)
       GridTools::distort_random(distortion, coarse, true);
     mesh.copy_triangulation(coarse);
+    renew_interpolations(coarse, mesh);
 
     std::vector<GridTools::PeriodicFacePair<
       typename parallel::distributed::Triangulation<dim>::cell_iterator>>

@@ -8,6 +8,11 @@
 class Verdicts
 {
 public:
+  /** @param file_name on all ranks but the first a file that nobody reads */
+  explicit Verdicts(const std::string &file_name = "output")
+    : output(file_name)
+  {}
+
   void
   operator()(const std::string &what, const bool good)
   {
@@ -23,7 +28,7 @@ public:
   }
 
 private:
-  std::ofstream output{"output"};
+  std::ofstream output;
   bool          all_good = true;
 };
 
