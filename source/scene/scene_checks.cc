@@ -1,6 +1,9 @@
 #include <signoton/scene/scene.h>
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
 
 #include <set>
 #include <sstream>
@@ -36,25 +39,27 @@ namespace Signoton
                           " for a second time",
                         "one material for each id",
                         "give the materials different ids");
-    unsigned int missing = 0;
+    std::set<types::material_id> missing;
     for (const auto &cell : model.space->mesh.active_cell_iterators())
       if (cell->is_locally_owned() && known.count(cell->material_id()) == 0)
-        missing = std::max(missing, cell->material_id() + 1);
-    missing = Utilities::MPI::max(missing, model.communicator);
-    if (missing > 0)
-      {
-        std::vector<std::string> ids;
-        for (const auto id : known)
-          ids.push_back(std::to_string(id));
-        throw UserError(model.file.where({"Materials"}),
-                        "cells of the mesh with material id " +
-                          std::to_string(missing - 1) +
-                          ", which no material has",
-                        "a material for every id of the mesh; known are " +
-                          join(ids, ", "),
-                        "add a material with 'set Material id = " +
-                          std::to_string(missing - 1) + "'");
-      }
+        missing.insert(cell->material_id());
+    missing = Utilities::MPI::compute_set_union(missing, model.communicator);
+    if (missing.empty())
+      return;
+    const auto in_words = [](const std::set<types::material_id> &ids) {
+      std::vector<std::string> words;
+      for (const auto id : ids)
+        words.push_back(std::to_string(id));
+      return join(words, ", ");
+    };
+    throw UserError(
+      model.file.where({"Materials"}),
+      "cells of the mesh with material id" +
+        std::string(missing.size() > 1 ? "s " : " ") + in_words(missing) +
+        ", which no material has",
+      "a material for every id of the mesh; known are " + in_words(known),
+      "add a material with 'set Material id = " + in_words({*missing.begin()}) +
+        "'" + (missing.size() > 1 ? ", and the others" : ""));
   }
 
   template <int dim>
@@ -73,11 +78,50 @@ namespace Signoton
                       "add 'Symmetry' or 'Displacement' at some boundary");
   }
 
+  namespace
+  {
+    /** The center of a cell of this rank whose map is not one to one at its
+     *  points, or nothing. On straight boundaries refinement folds no cell. */
+    template <int dim>
+    std::string
+    folded_by_refinement(const Space<dim> &space)
+    {
+      if (space.mesh.get_manifold_ids() ==
+          std::vector<types::manifold_id>{numbers::flat_manifold_id})
+        return "";
+      const FE_Nothing<dim> fe;
+      FEValues<dim>         values(space.mapping,
+                           fe,
+                           QGauss<dim>(space.degree + 1),
+                           update_jacobians);
+      for (const auto &cell : space.mesh.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            values.reinit(cell);
+            for (const auto q : values.quadrature_point_indices())
+              if (!(values.jacobian(q).determinant() > 0.))
+                return "(" + Patterns::Tools::to_string(cell->center()) + ")";
+          }
+      return "";
+    }
+  } // namespace
+
   template <int dim>
   void
   Scene<dim>::check_mesh() const
   {
     const auto &space = *model.space;
+    for (const auto &place :
+         Utilities::MPI::all_gather(model.communicator,
+                                    folded_by_refinement(space)))
+      if (!place.empty())
+        throw UserError(model.file.where({"Geometry"}),
+                        "a mesh that folds along its curved boundary when it "
+                        "is refined, around " +
+                          place,
+                        "cells that are convex at the boundary",
+                        "another generator, more or finer coarse cells, or "
+                        "less 'Initial refinement'");
     if (space.axisymmetric)
       {
         double lowest = 0., size = 0.;

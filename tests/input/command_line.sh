@@ -55,6 +55,8 @@ expect 0 "'Newton' has no effect with Analysis = dynamics, Scheme = explicit" \
   --validate "$piston" --set 'Newton/Tolerance=1e-9'
 expect 0 'The scene is valid' --validate "$piston" \
   --set 'Newton/Tolerance=1e-9' --set 'Time integration/Scheme=implicit'
+expect 2 'folds along its curved boundary' --validate \
+  "$source/tests/input/mesh_folds_when_refined.prm"
 "$signoton" --template point >point_template.prm
 expect 0 'point.csv' point point_template.prm
 expect 2 "'signoton point " "$source/prm/point/triaxial.prm"
