@@ -115,6 +115,38 @@ namespace Signoton
       return n;
     }
 
+    /** Give names to the parts of the boundary that have none. A condition may
+     *  have taken all faces of another part. */
+    template <int dim>
+    void
+    name_the_rest(const Triangulation<dim> &mesh,
+                  const bool                from_file,
+                  BoundaryNames            &names,
+                  std::vector<std::string> &notes)
+    {
+      const auto left = mesh.get_boundary_ids();
+      for (auto entry = names.begin(); entry != names.end();)
+        entry =
+          std::find(left.begin(), left.end(), entry->second) == left.end() ?
+            names.erase(entry) :
+            std::next(entry);
+      for (const auto id : left)
+        if (std::none_of(names.begin(), names.end(), [id](const auto &entry) {
+              return entry.second == id;
+            }))
+          {
+            const bool        no_group = id == 0 && from_file;
+            const std::string name =
+              free_name(names, no_group ? "unnamed" : std::to_string(id));
+            names[name] = id;
+            if (no_group)
+              notes.push_back(std::to_string(count_faces(mesh, id)) +
+                              " faces of the boundary belong to no group, "
+                              "they are called '" +
+                              name + "'");
+          }
+    }
+
     /** Let transfinite interpolations refer to a coarse mesh that was copied:
      *  they look their cells up, and know those they were made for. */
     template <int dim>
@@ -288,27 +320,7 @@ namespace Signoton
                           "make the coarse mesh fine enough to resolve it");
         names[name] = id;
       }
-    // A condition may have taken all faces of another part.
-    const auto left = mesh.get_boundary_ids();
-    for (auto entry = names.begin(); entry != names.end();)
-      entry = std::find(left.begin(), left.end(), entry->second) == left.end() ?
-                names.erase(entry) :
-                std::next(entry);
-    for (const auto id : left)
-      if (std::none_of(names.begin(), names.end(), [id](const auto &entry) {
-            return entry.second == id;
-          }))
-        {
-          const bool        no_group = id == 0 && !mesh_file.empty();
-          const std::string name =
-            free_name(names, no_group ? "unnamed" : std::to_string(id));
-          names[name] = id;
-          if (no_group)
-            notes.push_back(std::to_string(count_faces(mesh, id)) +
-                            " faces of the boundary belong to no "
-                            "group, they are called '" +
-                            name + "'");
-        }
+    name_the_rest(mesh, !mesh_file.empty(), names, notes);
   }
 
   template <int dim>

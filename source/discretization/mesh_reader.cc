@@ -225,7 +225,8 @@ namespace Signoton
         std::string others;
         for (const auto &[type, number] : n)
           others += (others.empty() ? "" : ", ") + in_words(*type, number);
-        throw MeshError(others.empty() ? "no elements" : others + " alone",
+        throw MeshError(others.empty() ? "no cells, nothing is meshed in it" :
+                                         others + " alone",
                         dim == 3 && others.find("quad") != std::string::npos ?
                           "'set Dimension = 2', or a mesh of the volume" :
                           in_gmsh);
