@@ -1,3 +1,4 @@
+#include <signoton/discretization/curved_geometry.h>
 #include <signoton/discretization/geometry.h>
 #include <signoton/discretization/gmsh_process.h>
 #include <signoton/discretization/mesh_reader.h>
@@ -5,6 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -19,7 +21,8 @@ namespace Signoton
     /** What a mesh file holds as text, or why it has none. */
     struct MeshText
     {
-      std::string text, problem;
+      std::string    text, problem;
+      CurvedElements curved = {};
     };
 
     MeshText
@@ -55,6 +58,7 @@ namespace Signoton
           }
       result.problem = Utilities::MPI::broadcast(communicator, result.problem);
       result.text    = Utilities::MPI::broadcast(communicator, result.text);
+      result.curved  = Utilities::MPI::broadcast(communicator, result.curved);
       return result;
     }
 
@@ -80,6 +84,44 @@ namespace Signoton
                             "a part of the boundary",
                             "prescribe nothing there, or cut the mesh open");
         }
+    }
+    /** Give the mesh the shape of its elements, and say where facets are all
+     *  that is known of what looks like a curve. */
+    template <int dim>
+    void
+    follow_curves(const CurvedElements     &elements,
+                  const bool                corners_will_move,
+                  const BoundaryGroups     &groups,
+                  Triangulation<dim>       &mesh,
+                  std::vector<std::string> &notes)
+    {
+      if (elements.order == 1)
+        return;
+      if (!corners_will_move)
+        {
+          const CurvedGeometry<dim> shape(elements, mesh);
+          if (const auto folded = shape.attach(mesh); !folded.empty())
+            {
+              std::ostringstream text;
+              text << folded.size() << " cells, the first around ("
+                   << folded.front()
+                   << "), would fold on curved edges, so that all edges are "
+                      "straight, refined or not; mesh the curves finer";
+              notes.push_back(text.str());
+            }
+        }
+      const auto facets = find_facets(mesh);
+      for (const auto &[name, id] : groups.names)
+        if (const auto kinks = facets.find(id); kinks != facets.end())
+          {
+            std::ostringstream text;
+            text << "boundary '" << name << "' has facets that meet at "
+                 << std::lround(kinks->second.smallest * 10.) / 10. << " to "
+                 << std::lround(kinks->second.largest * 10.) / 10.
+                 << " degrees, and refinement keeps them; curves are kept from "
+                    "a .geo file";
+            notes.push_back(text.str());
+          }
     }
   } // namespace
 
@@ -109,12 +151,11 @@ namespace Signoton
       const MeshText text = read_file(path);
       if (!is_geometry || !text.problem.empty())
         return text;
-      const auto meshes = mesh_geometry(fs::absolute(path).string(),
+      const auto meshed = mesh_geometry(fs::absolute(path).string(),
                                         dim,
-                                        {1},
                                         trust_geometry,
                                         {meshing_time, 1e9 * meshing_memory});
-      return {meshes.texts.empty() ? "" : meshes.texts[0], meshes.problem};
+      return {meshed.text, meshed.problem, meshed.curved};
     });
     if (!result.problem.empty())
       refuse(result.problem,
@@ -128,6 +169,7 @@ namespace Signoton
         const auto groups =
           make_mesh<dim>(MshFile(result.text), !is_geometry, mesh);
         report_inside(file, groups, dim == 2 ? "edges" : "faces", notes);
+        follow_curves(result.curved, distortion > 0., groups, mesh, notes);
         return groups.names;
       }
     catch (const MeshError &error)

@@ -3,6 +3,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/serialization/utility.hpp>
+
 #include <gmsh.h>
 
 #include <new>
@@ -118,10 +120,7 @@ namespace Signoton
     }
 
     std::string
-    run_gmsh(const std::string      &file,
-             const int               dim,
-             const std::vector<int> &orders,
-             const bool              trusted)
+    run_gmsh(const std::string &file, const int dim, const bool trusted)
     {
       gmsh::initialize(0, nullptr, false);
       gmsh::option::setNumber("General.Terminal", 0);
@@ -130,17 +129,14 @@ namespace Signoton
         if (const std::string why = forbid_side_effects(); !why.empty())
           throw std::runtime_error(
             "it cannot be kept from executing programs here: " + why);
-      std::vector<std::string> texts;
-      std::string              failure;
+      std::pair<std::string, CurvedElements> mesh;
+      std::string                            failure;
       try
         {
           gmsh::open(file);
           gmsh::model::mesh::generate(dim);
-          for (const int order : orders)
-            {
-              gmsh::model::mesh::setOrder(order);
-              texts.push_back(msh_text(dim));
-            }
+          gmsh::model::mesh::setOrder(1);
+          mesh.first = msh_text(dim);
         }
       catch (const std::bad_alloc &)
         {
@@ -155,26 +151,31 @@ namespace Signoton
         failure = said;
       if (!failure.empty())
         throw std::runtime_error(failure);
-      const std::vector<char> packed = dealii::Utilities::pack(texts, false);
+      try
+        {
+          mesh.second =
+            dim == 2 ? sample_gmsh_curves<2>() : sample_gmsh_curves<3>();
+        }
+      catch (...) // the mesh is as good as before
+        {}
+      const std::vector<char> packed = dealii::Utilities::pack(mesh, false);
       return std::string(packed.begin(), packed.end());
     }
   } // namespace
 
-  GmshMeshes
-  mesh_geometry(const std::string      &file,
-                const int               dim,
-                const std::vector<int> &orders,
-                const bool              trusted,
-                const ChildLimits      &limits)
+  GmshMesh
+  mesh_geometry(const std::string &file,
+                const int          dim,
+                const bool         trusted,
+                const ChildLimits &limits)
   {
     const ChildResult result =
-      run_in_child([&]() { return run_gmsh(file, dim, orders, trusted); },
-                   limits);
+      run_in_child([&]() { return run_gmsh(file, dim, trusted); }, limits);
     if (!result.problem.empty())
-      return {{}, result.problem};
-    return {dealii::Utilities::unpack<std::vector<std::string>>(
-              std::vector<char>(result.answer.begin(), result.answer.end()),
-              false),
-            ""};
+      return {"", {}, result.problem};
+    const auto [text, curved] =
+      dealii::Utilities::unpack<std::pair<std::string, CurvedElements>>(
+        std::vector<char>(result.answer.begin(), result.answer.end()), false);
+    return {text, curved, ""};
   }
 } // namespace Signoton

@@ -52,14 +52,16 @@ Physical Curve("0") = {1}; Physical Surface("body", 7) = {1};
     return files;
   }
 
-  GmshMeshes
+  GmshMesh
   mesh(const std::string &geometry,
        const bool         trusted = false,
        const ChildLimits &limits  = {})
   {
     std::ofstream("work/try.geo") << geometry << "\n";
-    return mesh_geometry(
-      fs::absolute("work/try.geo").string(), 2, {1}, trusted, limits);
+    return mesh_geometry(fs::absolute("work/try.geo").string(),
+                         2,
+                         trusted,
+                         limits);
   }
 
   void
@@ -70,7 +72,7 @@ Physical Curve("0") = {1}; Physical Surface("body", 7) = {1};
   {
     const auto result = mesh(geometry, false, limits);
     const bool good =
-      result.texts.empty() && result.problem.find(words) != std::string::npos;
+      result.text.empty() && result.problem.find(words) != std::string::npos;
     verdict(what + ": '" + words + "'", good);
     if (!good)
       std::cerr << what << ": '" << result.problem << "'\n";
@@ -82,8 +84,7 @@ Physical Curve("0") = {1}; Physical Surface("body", 7) = {1};
     const auto plain = mesh(square);
     verdict("a square is meshed", plain.problem.empty());
     Triangulation<2> triangulation;
-    const auto       groups =
-      make_mesh<2>(MshFile(plain.texts.at(0)), false, triangulation);
+    const auto groups = make_mesh<2>(MshFile(plain.text), false, triangulation);
     verdict("with 4 cells of group 7",
             triangulation.n_active_cells() == 4 &&
               triangulation.begin_active()->material_id() == 7);
@@ -93,19 +94,44 @@ Physical Curve("0") = {1}; Physical Surface("body", 7) = {1};
             groups.names.begin()->second != 0 &&
               triangulation.get_boundary_ids().size() == 2);
     verdict("a geometry of second order gives corners alone",
-            mesh("Mesh.ElementOrder = 2;" + square).texts == plain.texts);
+            mesh("Mesh.ElementOrder = 2;" + square).text == plain.text);
     verdict("the text is the same when it prints",
-            mesh("General.Terminal = 1; Printf(\"noise\");" + square).texts ==
-              plain.texts);
+            mesh("General.Terminal = 1; Printf(\"noise\");" + square).text ==
+              plain.text);
     std::ofstream("work/part.geo") << square;
     verdict("a file that it includes is read",
-            mesh("Include \"part.geo\";").texts == plain.texts);
+            mesh("Include \"part.geo\";").text == plain.text);
+  }
 
-    const auto both = mesh_geometry(
-      fs::absolute("work/part.geo").string(), 2, {1, 2}, false, {});
-    verdict("two orders are two meshes, the first one as before",
-            both.texts.size() == 2 && both.texts[0] == plain.texts[0] &&
-              both.texts[1] != plain.texts[0]);
+  void
+  try_curves()
+  {
+    verdict("straight edges need no points but corners",
+            mesh(square).curved.order == 1);
+    // a cell between a quarter of a circle and one of an ellipse
+    const auto ring =
+      mesh("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {3, 0, 0};"
+           "Point(4) = {0, 2, 0}; Point(5) = {0, 1, 0}; Line(1) = {2, 3};"
+           "Ellipse(2) = {3, 1, 3, 4}; Line(3) = {4, 5}; Circle(4) = {5, 1, 2};"
+           "Curve Loop(1) = {1:4}; Plane Surface(1) = {1};"
+           "Transfinite Curve {1:4} = 2; Transfinite Surface {1};"
+           "Recombine Surface {1};");
+    const auto  &points    = ring.curved.coordinates;
+    unsigned int on_circle = 0, on_ellipse = 0;
+    for (std::size_t i = 0; i + 1 < points.size(); i += 2)
+      {
+        const double x = points[i], y = points[i + 1];
+        on_circle += std::abs(std::hypot(x, y) - 1.) < 1e-8;
+        on_ellipse += std::abs(std::hypot(x / 3., y / 2.) - 1.) < 1e-8;
+      }
+    verdict("curves are given by points on them",
+            ring.curved.order == 6 && points.size() == 2 * 49 &&
+              on_circle == 7 && on_ellipse == 7);
+    Triangulation<2> triangulation;
+    make_mesh<2>(MshFile(ring.text), false, triangulation);
+    verdict("and the mesh by its corners",
+            triangulation.n_active_cells() == 1 &&
+              triangulation.n_vertices() == 4);
   }
 
   void
@@ -191,6 +217,7 @@ main(int argc, char **argv)
   fs::remove_all("work");
   fs::create_directory("work");
   try_good_ones();
+  try_curves();
   try_bad_ones();
   try_hostile_ones();
   return verdict.status();

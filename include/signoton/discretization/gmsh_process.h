@@ -2,19 +2,18 @@
 #define signoton_discretization_gmsh_process_h
 
 #include <signoton/base/child_process.h>
+#include <signoton/discretization/curved_geometry.h>
 
 #include <string>
-#include <vector>
 
 namespace Signoton
 {
-  /** Meshes of one geometry, or why there are none. */
-  struct GmshMeshes
+  /** The mesh of a geometry, or why there is none. */
+  struct GmshMesh
   {
-    /** Texts of .msh files, ASCII of version 2.2, one for each order that was
-     *  asked for. Corners have the same numbers in all of them. */
-    std::vector<std::string> texts;
-    std::string              problem; ///< in words, those of gmsh if it has any
+    std::string    text;    ///< of a .msh file, ASCII of version 2.2, order 1
+    CurvedElements curved;  ///< what the geometry knows of its shape
+    std::string    problem; ///< in words, those of gmsh if it has any
   };
 
   /**
@@ -26,15 +25,13 @@ namespace Signoton
    *
    * Cells without a physical group are part of the mesh if no cell has one.
    * @param file absolute name of the geometry
-   * @param orders orders of the elements of the meshes
    * @param trusted whether the geometry may execute programs and write files
    */
-  GmshMeshes
-  mesh_geometry(const std::string      &file,
-                const int               dim,
-                const std::vector<int> &orders,
-                const bool              trusted,
-                const ChildLimits      &limits);
+  GmshMesh
+  mesh_geometry(const std::string &file,
+                const int          dim,
+                const bool         trusted,
+                const ChildLimits &limits);
 } // namespace Signoton
 
 #endif
