@@ -28,5 +28,6 @@ git clone -q "$source" "$root/signoton"
 # the mounts end with the command
 unshare --mount bash -c '
   mount --bind /dev "$1/dev" && mount -t proc proc "$1/proc" &&
+    mount --rbind /sys "$1/sys" &&
     cd / && exec chroot "$1" env -i HOME=/root TERM=dumb PATH=/usr/sbin:/usr/bin:/sbin:/bin \
       /signoton/quickstart "${@:2}"' - "$root" "${arguments[@]}"

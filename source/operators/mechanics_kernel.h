@@ -6,9 +6,9 @@
 #include <signoton/tensors/embedding.h>
 #include <signoton/tensors/lanes.h>
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/matrix_free/fe_evaluation.h>
 #include <deal.II/matrix_free/matrix_free.h>
-#include <deal.II/matrix_free/tools.h>
 
 #include <functional>
 

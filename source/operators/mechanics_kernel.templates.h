@@ -1,6 +1,7 @@
 #ifndef signoton_operators_mechanics_kernel_templates_h
 #define signoton_operators_mechanics_kernel_templates_h
 
+#include "mechanics_assembly.templates.h"
 #include "mechanics_dynamics.templates.h"
 #include "mechanics_kernel.h"
 #include "mechanics_points.templates.h"
@@ -466,20 +467,6 @@ namespace Signoton
       force,
       increment,
       true);
-  }
-
-  template <typename Embedding, int degree>
-  void
-  MechanicsKernel<Embedding, degree>::assemble(
-    TrilinosWrappers::SparseMatrix &matrix,
-    const double                    regularization)
-  {
-    matrix = 0.;
-    MatrixFreeTools::
-      compute_matrix<dim, degree, degree + 1, dim, double, Number>(
-        data, space.constraints, matrix, [&](Cell &cell) {
-          tangent_operation(cell, regularization);
-        });
   }
 
   template <typename Embedding, int degree>
