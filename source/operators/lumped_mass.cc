@@ -1,5 +1,7 @@
 #include <signoton/operators/lumped_mass.h>
 
+#include <algorithm>
+
 namespace Signoton
 {
   template <int dim>
@@ -13,6 +15,7 @@ namespace Signoton
                QGaussLobatto<dim>(space.degree + 1),
              update_quadrature_points | update_JxW_values | update_values)
     , mass(space.fe.n_dofs_per_cell())
+    , squares(mass.size())
   {
     for (const auto &material : materials)
       density[material.id] = material.density;
@@ -25,6 +28,7 @@ namespace Signoton
     values.reinit(
       static_cast<typename Triangulation<dim>::cell_iterator>(cell));
     mass         = 0.;
+    squares      = 0.;
     double total = 0.;
     for (const unsigned int q : values.quadrature_point_indices())
       {
@@ -32,9 +36,16 @@ namespace Signoton
                          space.weight(values.quadrature_point(q));
         total += m;
         for (unsigned int i = 0; i < mass.size(); ++i)
-          mass[i] += m * values.shape_value(i, q) * values.shape_value(i, q);
+          {
+            const double shape = values.shape_value(i, q);
+            mass[i] += m * shape;
+            squares[i] += m * shape * shape;
+          }
       }
-    mass *= dim * total / mass.l1_norm();
+    // an axis of rotation leaves nothing for quadratic shape functions there
+    if (*std::min_element(mass.begin(), mass.end()) <
+        1e-3 * total / mass.size())
+      mass.equ(dim * total / squares.l1_norm(), squares);
     return mass;
   }
 

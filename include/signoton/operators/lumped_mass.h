@@ -13,10 +13,11 @@ namespace Signoton
   /**
    * The diagonal mass of a cell at its unknowns in kg: $\int\rho\,\varphi_i$ by
    * the Gauss-Lobatto rule whose points are the nodes of the element, so that
-   * the matrix is diagonal by itself and its entries are positive. That would
-   * leave nothing for nodes on an axis of rotation: in axisymmetry the mass of
-   * a cell goes to its nodes in the proportions of $\int\rho\,\varphi_i^2$
-   * (Hinton, Rock and Zienkiewicz 1976), which is the same where both apply.
+   * the matrix is diagonal by itself and its entries are positive. In
+   * axisymmetry these integrals are exact, so that plane waves along the axis
+   * stay plane. They leave nothing for quadratic shape functions on the axis: in
+   * the cells there the mass goes to the nodes in the proportions of
+   * $\int\rho\,\varphi_i^2$ (Hinton, Rock and Zienkiewicz 1976).
    */
   template <int dim>
   class CellMass
@@ -33,7 +34,7 @@ namespace Signoton
     const Space<dim>                                      &space;
     FEValues<dim>                                          values;
     boost::container::flat_map<types::material_id, double> density;
-    Vector<double>                                         mass;
+    Vector<double>                                         mass, squares;
   };
 
   /**
