@@ -1,6 +1,7 @@
 // Coarse cells with curved edges: all refinements lie on the curve, whatever
 // the order of the points in an element, on any number of ranks.
 
+#include <signoton/base/mpi_session.h>
 #include <signoton/discretization/curved_geometry.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -278,7 +279,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  Signoton::MPISession mpi(argc, argv);
   Verdicts verdict(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ?
                      "output" :
                      "/dev/null");

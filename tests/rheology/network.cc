@@ -242,8 +242,11 @@ namespace
     // the slope of the potential changes along the difference, by the
     // stiffness at most
     const double step = 1e-3 * size;
+    const auto   up = at(step), down = at(-step);
+    if (!up.converged || !down.converged) // no solution, nothing to compare
+      return;
     const double slope_of_potential =
-      (at(step).potential - at(-step).potential) / (2. * step);
+      (up.potential - down.potential) / (2. * step);
     findings.gradient =
       std::max(findings.gradient,
                std::abs(slope_of_potential - dot(found.stress, direction)) /
