@@ -203,6 +203,7 @@ namespace Signoton
     receipt.plastic += sums.dissipated - sums.viscous;
     receipt.viscous += sums.viscous;
     receipt.shock += sums.shock;
+    receipt.note();
     return sums;
   }
 
@@ -304,6 +305,7 @@ namespace Signoton
             {"external work", &receipt.external_work},
             {"initial energy", &receipt.initial},
             {"unknowns by steps", &unknown_steps},
+            {"largest energy", &receipt.largest},
             {"largest jump", &largest_jump}};
   }
 
@@ -412,6 +414,13 @@ namespace Signoton
         if (every > 0 && (is_finished() || n_steps % every == 0))
           save();
       }
+    if (std::abs(receipt.lost_part()) > 0.01)
+      output.screen << "\n  warning: the steps have "
+                    << (receipt.time_stepping > 0. ? "lost " : "gained ")
+                    << short_number(100. * std::abs(receipt.lost_part()))
+                    << " % of the largest total energy ('lost by time "
+                       "stepping'); shorter steps lose less, and shock "
+                       "viscosity keeps contacts from gaining\n";
     output.finish(n_steps);
     return ExitStatus::completed;
   }

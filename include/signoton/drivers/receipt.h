@@ -33,6 +33,25 @@ namespace Signoton
     double initial       = 0.; ///< kinetic and stored at the start
     double voids         = 0.; ///< volume of open contacts at present, in m^3
 
+    /** The largest total energy so far: kinetic and stored, or the work done;
+     *  see note(). */
+    double largest = 0.;
+
+    /** Keep the largest total energy. */
+    void
+    note()
+    {
+      largest =
+        std::max({largest, kinetic + stored, initial, std::abs(external_work)});
+    }
+
+    /** What the steps have lost, or gained, as a part of the largest energy. */
+    double
+    lost_part() const
+    {
+      return largest > 0. ? time_stepping / largest : 0.;
+    }
+
     /** What is missing, relative to the largest energy. */
     double
     gap() const
