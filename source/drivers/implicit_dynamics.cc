@@ -192,11 +192,12 @@ namespace Signoton
     Motion trial;
     while (true)
       {
-        time_step = std::min(next_step, parameters.end - start);
-        // no sliver of a last step
-        if (start + 1.001 * time_step >= parameters.end)
-          time_step = parameters.end - start;
-        time = start + time_step;
+        // Whole steps to the end if their size is given, else the last two are
+        // alike: a sliver would be left with the round-off of its inertia.
+        const double left = parameters.end - start,
+                     n    = std::max(1., std::ceil(left / next_step - 1e-3));
+        time_step         = !is_automatic || n < 2.5 ? left / n : next_step;
+        time              = start + time_step;
         model.set_time(time);
         const NewtonResult result = solve(trial);
         if (!result.converged)

@@ -1,5 +1,7 @@
 #include <signoton/drivers/inertial_problem.h>
 
+#include <limits>
+
 namespace Signoton
 {
   template <int dim>
@@ -67,9 +69,20 @@ namespace Signoton
 
   template <int dim>
   double
-  InertialProblem<dim>::force_scale(const VectorType &)
+  InertialProblem<dim>::force_scale(const VectorType &u)
   {
-    return pull.l2_norm() + force.l2_norm();
+    return this->not_vanishing(pull.l2_norm() + force.l2_norm(), u);
+  }
+
+  template <int dim>
+  double
+  InertialProblem<dim>::round_off(const VectorType &u)
+  {
+    VectorType inertial_force(u);
+    inertial_force.scale(mass);
+    return StaticProblem<dim>::round_off(u) +
+           16. * std::numeric_limits<double>::epsilon() *
+             (inertia * inertial_force.l2_norm() + pull.l2_norm());
   }
 
   template <int dim>

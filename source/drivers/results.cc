@@ -173,6 +173,9 @@ namespace Signoton
                   << std::setw(11) << model.ledger.total_seconds() << "  "
                   << (is_last ? "-" : output.time_left(record.time))
                   << std::defaultfloat << std::setprecision(6) << std::endl;
+    if (newton.at_round_off)
+      output.screen << "         the residual is at round-off: forces of "
+                       "elements are that much larger than the loads\n";
     print_newton_history(newton);
   }
 

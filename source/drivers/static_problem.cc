@@ -4,6 +4,7 @@
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace Signoton
 {
@@ -126,8 +127,41 @@ namespace Signoton
     for (const auto dof : support.locally_owned_elements())
       if (model.space->constraints.is_constrained(dof))
         sum += support[dof] * support[dof];
-    return std::sqrt(Utilities::MPI::sum(sum, model.communicator)) +
-           load.l2_norm();
+    return not_vanishing(
+      std::sqrt(Utilities::MPI::sum(sum, model.communicator)) + load.l2_norm(),
+      u);
+  }
+
+  template <int dim>
+  double
+  StaticProblem<dim>::not_vanishing(const double scale, const VectorType &u)
+  {
+    constexpr double part = 1e-3;
+    if (!(largest_scale > 0. && scale > part * largest_scale))
+      largest_scale =
+        std::max(largest_scale, model.mechanics->element_forces(u).conditional);
+    largest_scale = std::max(largest_scale, scale);
+    return std::max(scale, part * largest_scale);
+  }
+
+  template <int dim>
+  double
+  StaticProblem<dim>::round_off(const VectorType &u)
+  {
+    // of some operations for each of the numbers
+    return 16. * std::numeric_limits<double>::epsilon() *
+           (model.mechanics->element_forces(u).with_rigid_motion +
+            load.l2_norm());
+  }
+
+  template <int dim>
+  bool
+  StaticProblem<dim>::is_linear() const
+  {
+    return !(model.is_dynamic && model.time_integration.shock_viscosity) &&
+           std::all_of(model.materials.begin(),
+                       model.materials.end(),
+                       [](const auto &m) { return m.is_elastic(); });
   }
 
   template <int dim>
@@ -183,8 +217,12 @@ namespace Signoton
     model.mechanics->apply_tangent(lift, du);
     gradient += du;
     gradient *= -1.;
-    du                        = 0.;
-    const LinearResult result = solve(gradient, du, 1e-6, regularization);
+    du = 0.;
+    const LinearResult result =
+      solve(gradient,
+            du,
+            is_linear() ? 0.01 * model.newton.tolerance : 1e-6,
+            regularization);
     u += lift;
     if (result.converged)
       u += du;

@@ -63,6 +63,8 @@ namespace Signoton
     internal_force(const VectorType &displacement,
                    VectorType       &force,
                    const bool        with_tangent) override;
+    typename Mechanics<dim>::ElementForces
+    element_forces(const VectorType &displacement) override;
     void
     reactions(const VectorType &displacement, VectorType &force) override;
     void

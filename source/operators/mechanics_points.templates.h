@@ -66,6 +66,56 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
+  auto
+  MechanicsKernel<Embedding, degree>::element_forces(
+    const VectorType &displacement) -> typename Mechanics<dim>::ElementForces
+  {
+    std::array<double, 2> sums{}; // of squares
+    VectorType            unused;
+    initialize_vector(unused);
+    data.template cell_loop<VectorType, VectorType>(
+      [&](const auto &, auto &, const auto &src, const Range &range) {
+        Cell cell(data, all_constraints);
+        for (unsigned int batch = range.first; batch < range.second; ++batch)
+          {
+            cell.reinit(batch);
+            cell.read_dof_values_plain(src);
+            Number largest(0.), stiffness(0.), square(0.);
+            for (unsigned int i = 0; i < Cell::static_dofs_per_cell; ++i)
+              largest = std::max(largest, std::abs(cell.begin_dof_values()[i]));
+            cell.evaluate(cell_flags<Embedding>);
+            const Moduli &spring = elasticity[material_of_batch[batch]];
+            for (unsigned int q = 0; q < n_points; ++q)
+              {
+                const auto J = cell.inverse_jacobian(q);
+                for (unsigned int a = 0; a < dim; ++a)
+                  stiffness += weight(cell, q) * (J[a] * J[a]);
+                submit(cell, q, spring.stress(total_strain(cell, batch, q)));
+              }
+            stiffness *= spring.bulk + 4. / 3. * spring.shear;
+            cell.integrate(cell_flags<Embedding>);
+            for (unsigned int i = 0; i < Cell::static_dofs_per_cell; ++i)
+              square += cell.begin_dof_values()[i] * cell.begin_dof_values()[i];
+            stiffness *= largest;
+            stiffness *= stiffness;
+            for (unsigned int i = 0;
+                 i < data.n_active_entries_per_cell_batch(batch);
+                 ++i)
+              {
+                sums[0] += square[i];
+                sums[1] += stiffness[i];
+              }
+          }
+      },
+      unused,
+      displacement);
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        space.communicator,
+                        ArrayView<double>(sums.data(), sums.size()));
+    return {std::sqrt(sums[0]), std::sqrt(sums[1])};
+  }
+
+  template <typename Embedding, int degree>
   EnergyBalance
   MechanicsKernel<Embedding, degree>::energy_balance(
     const VectorType &displacement)

@@ -100,6 +100,31 @@ namespace Signoton
     return 0.;
   }
 
+  namespace
+  {
+    /** A full step that leaves more of the residual than this makes no
+     *  progress. */
+    constexpr double stagnation = 0.1;
+
+    /** What is accepted as round-off is at least this small beside the forces in
+     *  balance. */
+    constexpr double least_digits = 1e-6;
+
+    /** Whether the residual is at its round-off; if so, the result says it. */
+    bool
+    accept_round_off(ConvexProblem                   &problem,
+                     const ConvexProblem::VectorType &x,
+                     const double                     norm,
+                     NewtonResult                    &result)
+    {
+      // a body that flows away has large displacements, and no answer
+      result.at_round_off = result.history.back().residual <= least_digits &&
+                            norm <= problem.round_off(x);
+      result.converged = result.at_round_off;
+      return result.converged;
+    }
+  } // namespace
+
   NewtonResult
   Newton::solve(ConvexProblem &problem,
                 VectorType    &x,
@@ -125,6 +150,10 @@ namespace Signoton
             result.converged = true;
             return result;
           }
+        if (iteration > 0 &&
+            (problem.is_linear() || norm > stagnation * previous_norm) &&
+            accept_round_off(problem, x, norm, result))
+          return result;
         if (iteration == parameters.maximum_iterations)
           {
             result.reason =
@@ -134,10 +163,16 @@ namespace Signoton
 
         // Inexact Newton: solve as accurately as quadratic convergence can
         // use, and not beyond the tolerance (Eisenstat and Walker, choice 2).
-        const double ratio   = norm / previous_norm;
-        const double forcing = std::max(
-          std::clamp(iteration == 0 ? 1e-3 : 0.1 * ratio * ratio, 1e-6, 1e-3),
-          std::min(1e-3, 0.1 * parameters.tolerance * scale / norm));
+        const double ratio = norm / previous_norm,
+                     all   = std::min(1e-3,
+                                    0.1 * parameters.tolerance * scale / norm);
+        const double forcing =
+          problem.is_linear() ?
+            std::max(all, 1e-15) :
+            std::max(std::clamp(iteration == 0 ? 1e-3 : 0.1 * ratio * ratio,
+                                1e-6,
+                                1e-3),
+                     all);
         rhs = gradient;
         rhs *= -1.;
         NewtonIteration next;
@@ -171,9 +206,14 @@ namespace Signoton
                   linear.reason = "the tangent gives no descent direction";
                 rho = std::max(1e-8, 100. * rho);
               }
+            // where there is no decrease any more there may be none to find
+            if (next.linear_solves == 2 && iteration > 0 &&
+                accept_round_off(problem, x, norm, result))
+              return result;
             if (rho > 2.)
               {
-                result.reason = linear.reason;
+                if (!accept_round_off(problem, x, norm, result))
+                  result.reason = linear.reason;
                 return result;
               }
           }

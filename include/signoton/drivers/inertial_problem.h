@@ -42,6 +42,9 @@ namespace Signoton
     double
     force_scale(const VectorType &u) override;
 
+    double
+    round_off(const VectorType &u) override;
+
   protected:
     void
     complete(TrilinosWrappers::SparseMatrix &matrix) override;

@@ -31,8 +31,17 @@ namespace Signoton
     bool
     has_potential() const override;
 
+    bool
+    is_linear() const override;
+
+    /** The forces of supports and loads. Where they vanish, since contacts are
+     *  open or a load is taken off again, a small part of the largest so far, or
+     *  of what the strain would make of closed contacts. */
     double
     force_scale(const VectorType &u) override;
+
+    double
+    round_off(const VectorType &u) override;
 
     LinearResult
     solve(const VectorType &rhs,
@@ -63,6 +72,10 @@ namespace Signoton
     internal_force_of_mesh(const VectorType &u);
 
   protected:
+    /** What force_scale() returns instead of a scale that may vanish. */
+    double
+    not_vanishing(const double scale, const VectorType &u);
+
     /** Add what the stiffness is not to the matrix. */
     virtual void
     complete(TrilinosWrappers::SparseMatrix &)
@@ -80,6 +93,7 @@ namespace Signoton
     TrilinosWrappers::SparseMatrix   matrix;
     LinearSolver                     linear_solver;
     std::vector<std::vector<double>> near_null_space;
+    double                           largest_scale = 0.; ///< of forces so far
     /** Regularization that the matrix was assembled with, none if the point
      *  of linearization has moved since. */
     std::optional<double> assembled;

@@ -137,6 +137,20 @@ namespace Signoton
                    VectorType       &force,
                    const bool        with_tangent) = 0;
 
+    /** Norms of forces of elements, in N. */
+    struct ElementForces
+    {
+      /** Of the conditional stress $E:\varepsilon$, that of closed contacts and
+       *  hinges that hold. */
+      double conditional = 0.;
+      /** What elements would bear if the displacements of their nodes did not
+       *  cancel: the forces of elements are differences of these. */
+      double with_rigid_motion = 0.;
+    };
+
+    virtual ElementForces
+    element_forces(const VectorType &displacement) = 0;
+
     /** The internal force with the entries of constrained unknowns, which are
      *  the reactions there. Writes the trial history, as internal_force()
      *  does. */

@@ -34,10 +34,22 @@ namespace Signoton
       return true;
     }
 
+    /** Whether the gradient is linear, so that one exact solve is all. */
+    virtual bool
+    is_linear() const
+    {
+      return false;
+    }
+
     /** Size of the forces that balance in the gradient at the point last
      *  evaluated: what a small gradient is compared with. */
     virtual double
     force_scale(const VectorType &x) = 0;
+
+    /** The norm of what is left of a gradient at @p x that vanishes, by the
+     *  digits that differences of large forces lose. */
+    virtual double
+    round_off(const VectorType &x) = 0;
 
     /** Solve (tangent + regularization * elastic tangent) @p dx = @p rhs. */
     virtual LinearResult
@@ -60,7 +72,9 @@ namespace Signoton
   /** How a Newton solve went. */
   struct NewtonResult
   {
-    bool                         converged = false;
+    bool converged = false;
+    /** Converged to what round-off leaves, which is more than the tolerance. */
+    bool                         at_round_off = false;
     std::string                  reason; ///< why it stopped, if not converged
     std::vector<NewtonIteration> history;
     double                       regularization = 0.;
@@ -89,6 +103,12 @@ namespace Signoton
    * acceptable, or the linear solver gives up, the tangent (never the
    * residual) is regularized by a multiple of the elastic one, which shrinks
    * again once full steps succeed.
+   *
+   * A residual is small if it is below the tolerance times the forces in
+   * balance, or if it no longer falls and is at the round-off of the forces of
+   * elements that it is a difference of: in a slender body, or beside a material
+   * a million times as stiff, these are far larger than the loads. A linear
+   * problem is solved to the tolerance at once.
    */
   class Newton
   {

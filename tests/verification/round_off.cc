@@ -1,0 +1,147 @@
+// Elastic bodies whose loads are far below the forces of their elements, and
+// grains that bear nothing at all: each has an answer, and linear bodies have it
+// after one iteration. Cantilevers of 100 and 1000 to 1 against the theory of
+// Timoshenko, columns of two layers whose moduli differ up to 1e8 times against
+// their weight, lifted grains.
+
+#include "verification.h"
+
+using namespace Verification;
+using Signoton::SceneFile;
+
+namespace
+{
+  std::string
+  text(const double number)
+  {
+    std::ostringstream stream;
+    stream << std::setprecision(17) << number;
+    return stream.str();
+  }
+
+  SceneFile
+  box(const std::string &arguments, const std::string &young_modulus)
+  {
+    SceneFile file;
+    file.set({"Geometry"}, "Generator", "subdivided_hyper_rectangle");
+    file.set({"Geometry"}, "Arguments", arguments + " : true");
+    file.set({"Materials", "m"}, "Rheology", "elastic");
+    file.set({"Materials", "m"}, "Young modulus", young_modulus);
+    file.set({"Materials", "m"}, "Poisson ratio", "0");
+    file.set({"Discretization"}, "Degree", "2");
+    return file;
+  }
+
+  void
+  require_one_iteration(Report                      &report,
+                        const std::string           &name,
+                        const PhysicalNumbers::Line &line)
+  {
+    report.require(name + ", iterations",
+                   value(line, "most newton iterations of a solve"),
+                   1.);
+  }
+
+  /** A cantilever of height 1 under a unit shear force at its end. */
+  void
+  cantilever(Report &report, const double length)
+  {
+    SceneFile file = box("100, 2 : 0, 0 : " + text(length) + ", 1", "1e6");
+    file.set({"Boundaries", "left"}, "Displacement x", "0");
+    file.set({"Boundaries", "left"}, "Displacement y", "0");
+    file.set({"Boundaries", "right"}, "Traction", "0; 1");
+    file.set({"Output"}, "Probe points", text(length) + ", 0.5");
+    const auto         line = run(file).back();
+    std::ostringstream name;
+    name << "cantilever of " << length;
+    const double bending = 4. * std::pow(length, 3) / 1e6,
+                 shear   = length / (5. / 6. * 0.5e6);
+    // Round-off by the condition of the matrix, which goes with the fourth power
+    // of the slenderness, and what quadratic cells leave.
+    report.require(name.str(),
+                   value(line, "displacement y at probe 1") /
+                       (bending + shear) -
+                     1.,
+                   std::max(1e-3, 1e-14 * std::pow(length, 4)));
+    require_one_iteration(report, name.str(), line);
+  }
+
+  /** A heavy column of height 2, one half stiff: linear in the pieces. */
+  void
+  two_layers(Report &report, const double contrast, const bool stiff_on_top)
+  {
+    SceneFile file = box("4, 8 : 0, 0 : 1, 2", "1");
+    file.set({"Geometry"},
+             "Material ids",
+             stiff_on_top ? "1: y > 1" : "1: y < 1");
+    file.set({"Materials", "stiff"}, "Rheology", "elastic");
+    file.set({"Materials", "stiff"}, "Material id", "1");
+    file.set({"Materials", "stiff"}, "Young modulus", text(contrast));
+    file.set({"Materials", "stiff"}, "Poisson ratio", "0");
+    file.set({"Materials", "stiff"}, "Density", "1e-3");
+    file.set({"Materials", "m"}, "Density", "1e-3");
+    file.set({"Loads"}, "Gravity", "0; -1");
+    for (const char *side : {"left", "right", "bottom"})
+      file.set({"Boundaries", side}, "Symmetry", "true");
+    file.set({"Output"}, "Probe points", "0.5, 2");
+    const auto line = run(file).back();
+    // settlement of a layer under its weight and what lies on it
+    const double lower = 1.5e-3, upper = 0.5e-3,
+                 exact = -(stiff_on_top ? lower + upper / contrast :
+                                          lower / contrast + upper);
+    std::ostringstream name;
+    name << "contrast of " << contrast << (stiff_on_top ? " on top" : " below");
+    report.require(name.str(),
+                   value(line, "displacement y at probe 1") / exact - 1.,
+                   std::max(1e-7, 1e-14 * contrast));
+    require_one_iteration(report, name.str(), line);
+  }
+
+  /** Grains without cohesion that are lifted at once, or pressed before. */
+  void
+  lifted_grains(Report &report, const int dim, const std::string &motion)
+  {
+    SceneFile file =
+      box(dim == 2 ? "4, 4 : 0, 0 : 1, 1" : "2, 2, 2 : 0, 0, 0 : 1, 1, 1",
+          "1e8");
+    file.set({}, "Dimension", std::to_string(dim));
+    file.set({"Materials", "m"}, "Rheology", "elastic granular");
+    file.set({"Materials", "m"}, "Admissible set", "mises schleicher");
+    file.set({"Materials", "m"}, "Friction parameter", "0.5");
+    file.set({"Materials", "m"}, "Poisson ratio", "0.3");
+    file.set({"Discretization"}, "Degree", "1");
+    for (const std::string side : {"left", "right", "front", "back"})
+      if (dim == 3 || side[0] == 'l' || side[0] == 'r')
+        file.set({"Boundaries", side}, "Symmetry", "true");
+    const std::string up = dim == 2 ? "y" : "z";
+    file.set({"Boundaries", "bottom"}, "Displacement " + up, "0");
+    file.set({"Boundaries", "top"}, "Displacement " + up, motion);
+    file.set({"Load steps"}, "End time", "2");
+    file.set({"Load steps"}, "Step size", "0.25");
+    file.set({"Output"}, "Probe surfaces", "top");
+    file.set({"Output"}, "Probe quantities", "stress");
+    const auto line = run(file).back();
+    report.require("grains moved by " + motion + " in " + std::to_string(dim) +
+                     "D, traction",
+                   value(line, "traction " + up + " at top") / 1e8,
+                   1e-12);
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Signoton::MPISession mpi(argc, argv);
+  Report               report;
+  cantilever(report, 100.);
+  cantilever(report, 1000.);
+  for (const double contrast : {1e4, 1e6, 1e8})
+    for (const bool stiff_on_top : {true, false})
+      two_layers(report, contrast, stiff_on_top);
+  for (const int dim : {2, 3})
+    {
+      lifted_grains(report, dim, "1e-3*t");
+      lifted_grains(report, dim, "if(t < 1, -1e-3*t, 2e-3*t - 3e-3)");
+    }
+  return report.status();
+}
