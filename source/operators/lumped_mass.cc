@@ -1,7 +1,5 @@
 #include <signoton/operators/lumped_mass.h>
 
-#include <algorithm>
-
 namespace Signoton
 {
   template <int dim>
@@ -42,9 +40,8 @@ namespace Signoton
             squares[i] += m * shape * shape;
           }
       }
-    // an axis of rotation leaves nothing for quadratic shape functions there
-    if (*std::min_element(mass.begin(), mass.end()) <
-        1e-3 * total / mass.size())
+    // beside an axis of rotation quadratic shape functions have next to none
+    if (space.degree > 1)
       mass.equ(dim * total / squares.l1_norm(), squares);
     return mass;
   }

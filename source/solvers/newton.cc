@@ -102,23 +102,18 @@ namespace Signoton
 
   namespace
   {
-    /** A full step that leaves more of the residual than this makes no
-     *  progress. */
-    constexpr double stagnation = 0.1;
-
-    /** What is accepted as round-off is at least this small beside the forces in
-     *  balance. */
-    constexpr double least_digits = 1e-6;
-
-    /** Whether the residual is at its round-off; if so, the result says it. */
+    /** Whether the residual of a linear problem is at its round-off; if so, the
+     *  result says it. A body that flows away has large displacements and with
+     *  them round-off, but no answer. */
     bool
     accept_round_off(ConvexProblem                   &problem,
                      const ConvexProblem::VectorType &x,
                      const double                     norm,
                      NewtonResult                    &result)
     {
-      // a body that flows away has large displacements, and no answer
-      result.at_round_off = result.history.back().residual <= least_digits &&
+      constexpr double least_digits = 1e-6;
+      result.at_round_off           = problem.is_linear() &&
+                            result.history.back().residual <= least_digits &&
                             norm <= problem.round_off(x);
       result.converged = result.at_round_off;
       return result.converged;
@@ -150,9 +145,7 @@ namespace Signoton
             result.converged = true;
             return result;
           }
-        if (iteration > 0 &&
-            (problem.is_linear() || norm > stagnation * previous_norm) &&
-            accept_round_off(problem, x, norm, result))
+        if (iteration > 0 && accept_round_off(problem, x, norm, result))
           return result;
         if (iteration == parameters.maximum_iterations)
           {

@@ -15,8 +15,8 @@ namespace Signoton
    * the Gauss-Lobatto rule whose points are the nodes of the element, so that
    * the matrix is diagonal by itself and its entries are positive. In
    * axisymmetry these integrals are exact, so that plane waves along the axis
-   * stay plane. They leave nothing for quadratic shape functions on the axis: in
-   * the cells there the mass goes to the nodes in the proportions of
+   * stay plane. Quadratic shape functions would have next to none beside the
+   * axis: of these cells the mass goes to the nodes in the proportions of
    * $\int\rho\,\varphi_i^2$ (Hinton, Rock and Zienkiewicz 1976).
    */
   template <int dim>

@@ -105,10 +105,10 @@ namespace Signoton
    * again once full steps succeed.
    *
    * A residual is small if it is below the tolerance times the forces in
-   * balance, or if it no longer falls and is at the round-off of the forces of
-   * elements that it is a difference of: in a slender body, or beside a material
-   * a million times as stiff, these are far larger than the loads. A linear
-   * problem is solved to the tolerance at once.
+   * balance. A linear problem is solved to that at once, or to the round-off of
+   * the forces of elements that the residual is a difference of: in a slender
+   * body, or beside a material a million times as stiff, these are far larger
+   * than the loads.
    */
   class Newton
   {
