@@ -1,3 +1,4 @@
+#include <signoton/base/gnuplot.h>
 #include <signoton/base/output_file.h>
 #include <signoton/drivers/point.h>
 
@@ -5,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -75,10 +75,6 @@ namespace Signoton
                                                           " (J/m^3)" :
                                                           "";
     };
-    std::string shown = title;
-    for (char &c : shown)
-      if (c == '\'')
-        c = ' ';
     write_file(communicator,
                directory + "/point.gp",
                "# gnuplot point.gp\n"
@@ -86,11 +82,11 @@ namespace Signoton
                "background 'white'\n"
                "set output 'point.svg'\n"
                "set datafile separator ','\n"
-               "set title '" +
-                 shown + "' noenhanced\nset xlabel '" + horizontal +
-                 unit(horizontal) + "'\nset ylabel '" + vertical +
-                 unit(vertical) +
-                 "'\nset grid\nset zeroaxis lt -1\nunset key\n"
+               "set title " +
+                 gnuplot_string(title) + " noenhanced\nset xlabel " +
+                 gnuplot_string(horizontal + unit(horizontal)) +
+                 "\nset ylabel " + gnuplot_string(vertical + unit(vertical)) +
+                 "\nset grid\nset zeroaxis lt -1\nunset key\n"
                  "set format '%g'\nset xtics rotate by -25 offset 0,-0.3\n"
                  "set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n"
                  "plot 'point.csv' skip 1 using " +
@@ -98,10 +94,7 @@ namespace Signoton
                  " with lines lw 2 lc rgb '#1f5fa8'\n");
     if (Utilities::MPI::this_mpi_process(communicator) != 0)
       return true;
-    const std::string command =
-      "cd '" + directory + "' && gnuplot point.gp > /dev/null 2>&1";
-    const bool drawn = directory.find('\'') == std::string::npos &&
-                       std::system(command.c_str()) == 0;
+    const bool drawn = run_gnuplot(directory, "point.gp");
     if (!drawn)
       std::cout << "No picture: gnuplot is not there, or could not draw; "
                    "'gnuplot point.gp' in the directory of the results does "

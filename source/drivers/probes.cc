@@ -1,10 +1,10 @@
+#include <signoton/base/gnuplot.h>
 #include <signoton/base/output_file.h>
 #include <signoton/drivers/probes.h>
 
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/numerics/vector_tools_evaluate.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -361,12 +361,8 @@ namespace Signoton
             "unset multiplot\n");
         if (Utilities::MPI::this_mpi_process(model.communicator) != 0)
           continue;
-        const std::string command =
-          "cd '" + model.output.directory + "' && gnuplot line-" +
-          std::to_string(l + 1) + ".gp > /dev/null 2>&1";
-        drawn = drawn &&
-                model.output.directory.find('\'') == std::string::npos &&
-                std::system(command.c_str()) == 0;
+        drawn = drawn && run_gnuplot(model.output.directory,
+                                     "line-" + std::to_string(l + 1) + ".gp");
       }
     return drawn;
   }
