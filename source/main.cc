@@ -1,8 +1,13 @@
 #include <signoton/base/blas.h>
+#include <signoton/base/first_rank.h>
 #include <signoton/base/mpi_session.h>
+#include <signoton/base/quoting.h>
 #include <signoton/scene/scene.h>
 
 #include <iostream>
+#include <new>
+#include <sstream>
+#include <stdexcept>
 
 namespace
 {
@@ -23,15 +28,20 @@ compression differently
                                      dynamics, point)
   signoton --resume DIRECTORY        go on from the checkpoint in an output
                                      directory, on any number of ranks
-  signoton --set 'Section/Key=value' override one entry; may be repeated
+  signoton --set 'Section/Key=value' override one entry; may be repeated.
+                                     'Loads/Constants=a = 3' changes the
+                                     constant a, and keeps the others
   signoton --output DIRECTORY        write results there
   signoton --trust-geometry          let .geo files execute programs and write
                                      files, which they cannot otherwise
   signoton --help, --version
   mpirun -np N signoton SCENE.prm    the same on N ranks
 
-Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
-4 results could not be written.
+Names with a '#', '/', ':', ';', ',' or '=' in them are put in double quotes,
+in files and here: --set 'Boundaries/"top / left"/Pressure=1'.
+
+Exit status: 0 completed, 1 error of the program or too little memory, 2 bad
+input, 3 no equilibrium found, 4 results could not be written.
 )";
 
   /** What main() does for arguments that need no scene; false for others. */
@@ -81,6 +91,9 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
                               const std::string &value) {
           if (!before.empty())
             refuse("'" + word + "' besides '" + before + "'", "one of them");
+          // it would break lists of files, and lines on the screen
+          if (const auto found = control_character_in(value); !found.empty())
+            refuse(found + " behind '" + word + "'", "text without");
           return value;
         };
         if (word == "point" && !options.point)
@@ -122,36 +135,86 @@ Exit status: 0 completed, 1 error, 2 bad input, 3 no equilibrium found,
       options.action = Options::Action::validate;
     return options;
   }
+
+  /** What to tell of an error that is none of the user's. */
+  std::string
+  failure_text(const std::exception &error)
+  {
+    if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr ||
+        dynamic_cast<const std::length_error *>(&error) != nullptr ||
+        dynamic_cast<const StandardExceptions::ExcOutOfMemory *>(&error) !=
+          nullptr)
+      return "Signoton is out of memory. '--explain' forecasts what a scene "
+             "takes; a coarser mesh, 'Refinement / Maximum unknowns' or more "
+             "machines help.\n";
+    const auto *inner = dynamic_cast<const ExceptionBase *>(&error);
+    if (inner == nullptr)
+      return std::string("Signoton failed:\n  ") + error.what() + "\n";
+    std::ostringstream text;
+    text << "Signoton failed, by an error inside the program ("
+         << inner->get_exc_name() << "):\n";
+    inner->print_info(text);
+    text << "Please report it with the scene.\n";
+    return text.str();
+  }
+
+  /** Say what has gone wrong, once, and end all ranks; the status for the
+   *  program. */
+  int
+  end_with(const MPI_Comm    &communicator,
+           const std::string &message,
+           const ExitStatus   status)
+  {
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
+    const bool         is_lone = !all_arrive(communicator);
+    if (is_lone)
+      std::cerr << "\nOn rank " << rank << " alone:" << std::flush;
+    if (is_lone || rank == 0)
+      std::cerr << '\n' << message << std::flush;
+    if (is_lone)
+      MPI_Abort(MPI_COMM_WORLD, static_cast<int>(status));
+    return static_cast<int>(status);
+  }
+
+  ExitStatus
+  run(const std::vector<std::string> &arguments)
+  {
+    if (handle_information(arguments,
+                           Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) ==
+                             0))
+      return ExitStatus::completed;
+    const Options options = parse(arguments);
+    return options.point ? run_point(MPI_COMM_WORLD, options) :
+                           run_scene(MPI_COMM_WORLD, options);
+  }
 } // namespace
 
 int
 main(int argc, char **argv)
 {
   MPISession mpi(argc, argv);
-  const bool is_root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  // the ranks meet here at the end, whatever they were about to say elsewhere
+  MPI_Comm last_words;
+  MPI_Comm_dup(MPI_COMM_WORLD, &last_words);
   try
     {
-      const std::vector<std::string> arguments(argv + 1, argv + argc);
-      if (handle_information(arguments, is_root))
-        return 0;
-      const Options options = parse(arguments);
-      return static_cast<int>(options.point ?
-                                run_point(MPI_COMM_WORLD, options) :
-                                run_scene(MPI_COMM_WORLD, options));
+      return static_cast<int>(
+        run(std::vector<std::string>(argv + 1, argv + argc)));
     }
   catch (const UserError &error)
     {
-      if (is_root)
-        std::cerr << "\nSignoton cannot go on.\n" << error.what() << std::flush;
-      return static_cast<int>(error.status);
+      return end_with(last_words,
+                      std::string("Signoton cannot go on.\n") + error.what(),
+                      error.status);
     }
   catch (const std::exception &error)
     {
-      std::cerr << "\nSignoton failed on rank "
-                << Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) << ":\n"
-                << error.what() << std::endl;
-      if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-        MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitStatus::failure));
-      return static_cast<int>(ExitStatus::failure);
+      return end_with(last_words, failure_text(error), ExitStatus::failure);
+    }
+  catch (...)
+    {
+      return end_with(last_words,
+                      "Signoton failed, it does not know why.\n",
+                      ExitStatus::failure);
     }
 }

@@ -1,95 +1,13 @@
+#include <signoton/base/quoting.h>
 #include <signoton/base/scene_file.h>
-
-#include <deal.II/base/utilities.h>
-
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <sstream>
 
 namespace Signoton
 {
-  namespace
-  {
-    using Tree = boost::property_tree::ptree;
-
-    /** Split `first rest` at the first white space. */
-    std::pair<std::string, std::string>
-    first_word(const std::string &line)
-    {
-      const auto end = line.find_first_of(" \t");
-      if (end == std::string::npos)
-        return {line, ""};
-      return {line.substr(0, end), Utilities::trim(line.substr(end))};
-    }
-
-    /** ParameterHandler prints names with characters that trees cannot hold
-     *  mangled as _xx; this undoes it. */
-    std::string
-    demangle(const std::string &mangled)
-    {
-      std::string plain;
-      for (std::size_t i = 0; i < mangled.size(); ++i)
-        if (mangled[i] == '_' && i + 2 < mangled.size())
-          {
-            plain += static_cast<char>(
-              std::stoi(mangled.substr(i + 1, 2), nullptr, 16));
-            i += 2;
-          }
-        else
-          plain += mangled[i];
-      return plain;
-    }
-
-    Tree
-    declared_tree(const ParameterHandler &handler)
-    {
-      std::stringstream stream;
-      handler.print_parameters(stream, ParameterHandler::JSON);
-      Tree tree;
-      boost::property_tree::read_json(stream, tree);
-      return tree;
-    }
-
-    bool
-    is_entry(const Tree &node)
-    {
-      return node.count("value") > 0 && node.count("pattern_description") > 0;
-    }
-
-    const Tree *
-    child(const Tree &tree, const std::string &name)
-    {
-      for (const auto &[mangled, node] : tree)
-        if (demangle(mangled) == name)
-          return &node;
-      return nullptr;
-    }
-
-    std::vector<std::string>
-    names(const Tree &tree, const bool entries)
-    {
-      std::vector<std::string> result;
-      for (const auto &[mangled, node] : tree)
-        if (is_entry(node) == entries)
-          result.push_back(demangle(mangled));
-      return result;
-    }
-
-    std::string
-    suggestion(const std::string              &word,
-               const std::vector<std::string> &candidates,
-               const std::string              &otherwise)
-    {
-      const std::string nearest = nearest_name(word, candidates);
-      return nearest.empty() ? otherwise : "did you mean '" + nearest + "'?";
-    }
-  } // namespace
-
   std::string
   join(const std::vector<std::string> &items, const std::string &separator)
   {
@@ -104,7 +22,8 @@ namespace Signoton
                const std::vector<std::string> &candidates)
   {
     const auto lower = [](std::string text) {
-      std::transform(text.begin(), text.end(), text.begin(), ::tolower);
+      for (char &c : text)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
       return text;
     };
     std::string best;
@@ -138,109 +57,6 @@ namespace Signoton
     return best;
   }
 
-  SceneFile
-  SceneFile::read(const std::string &file_name)
-  {
-    std::ifstream file(file_name);
-    if (!file || std::filesystem::is_directory(file_name))
-      throw UserError("file '" + file_name + "'",
-                      "it cannot be opened",
-                      "a readable parameter file (.prm)",
-                      "check the name and the directory; 'signoton --template "
-                      "statics' prints one to start from");
-    std::stringstream text;
-    text << file.rdbuf();
-    return parse(text.str(), file_name);
-  }
-
-  SceneFile
-  SceneFile::parse(const std::string &text, const std::string &name)
-  {
-    SceneFile scene;
-    scene.name = name;
-    Path               path;
-    std::istringstream stream(text);
-    std::string        raw, line;
-    unsigned int       number = 0, first_of_line = 0;
-    const auto         complain = [&](const std::string &expected,
-                              const std::string &hint) {
-      throw UserError(name + ", line " + std::to_string(first_of_line),
-                      "'" + line + "'",
-                      expected,
-                      hint);
-    };
-    while (std::getline(stream, raw))
-      {
-        ++number;
-        first_of_line = number;
-        line          = Utilities::trim(raw.substr(0, raw.find('#')));
-        while (!line.empty() && line.back() == '\\' &&
-               std::getline(stream, raw))
-          {
-            ++number;
-            line.pop_back();
-            line += Utilities::trim(raw.substr(0, raw.find('#')));
-          }
-        if (line.empty())
-          continue;
-        const auto [word, rest] = first_word(line);
-        if (word == "subsection" && !rest.empty())
-          {
-            path.push_back(rest);
-            scene.sections.emplace_back(path, first_of_line);
-          }
-        else if (word == "end" && rest.empty())
-          {
-            if (path.empty())
-              complain("an 'end' for every 'subsection', no more",
-                       "remove this line or find the missing 'subsection'");
-            path.pop_back();
-          }
-        else if (word == "set" && rest.find('=') != std::string::npos)
-          {
-            const auto        equal = rest.find('=');
-            const std::string key   = Utilities::trim(rest.substr(0, equal));
-            if (const Entry *before = scene.find(path, key))
-              complain("one value for each key; '" + key +
-                         "' has one in line " + std::to_string(before->line),
-                       "remove one of them");
-            scene.entries.push_back({path,
-                                     key,
-                                     Utilities::trim(rest.substr(equal + 1)),
-                                     first_of_line});
-          }
-        else
-          complain("'subsection Name', 'set Key = value', 'end' or a '#' "
-                   "comment",
-                   "compare with a file in prm/");
-      }
-    if (!path.empty())
-      throw UserError(name + ", end of file",
-                      "subsection '" + join(path, "/") + "' is still open",
-                      "an 'end' for every 'subsection'",
-                      "add the missing 'end'");
-    return scene;
-  }
-
-  void
-  SceneFile::override_entry(const std::string &assignment)
-  {
-    const auto equal = assignment.find('=');
-    if (equal == std::string::npos)
-      throw UserError("command line, --set",
-                      "'" + assignment + "'",
-                      "'Section/Key=value'",
-                      "quote the whole assignment, for instance --set "
-                      "'Discretization/Degree=2'");
-    Path path = Utilities::split_string_list(assignment.substr(0, equal), '/');
-    const std::string key = path.empty() ? "" : path.back();
-    if (!path.empty())
-      path.pop_back();
-    entries.push_back(
-      {path, key, Utilities::trim(assignment.substr(equal + 1)), 0});
-    open_sections(path);
-  }
-
   void
   SceneFile::open_sections(const Path &path)
   {
@@ -253,6 +69,11 @@ namespace Signoton
                  const std::string &key,
                  const std::string &value)
   {
+    if (const std::string found = control_character_in(value); !found.empty())
+      throw UserError("command line: " + join(path, " / ") + " / " + key,
+                      found + " in '" + value + "'",
+                      "a name of a directory or file without it",
+                      "rename it");
     for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
       if (entry->path == path && entry->key == key)
         {
@@ -367,10 +188,16 @@ namespace Signoton
     const std::function<void(const Path &)> print = [&](const Path &path) {
       const std::string indent(2 * path.size(), ' ');
       for (const std::string &key : keys(path))
-        out << indent << "set " << key << " = " << value(path, key) << '\n';
+        {
+          const std::string text = value(path, key);
+          const bool as_it_is = find_unquoted(text, '#') == std::string::npos &&
+                                (text.empty() || text.back() != '\\');
+          out << indent << "set " << quoted(key, "=#") << " = "
+              << (as_it_is ? text : quoted(text, "#")) << '\n';
+        }
       for (const std::string &section : subsections(path))
         {
-          out << indent << "subsection " << section << '\n';
+          out << indent << "subsection " << quoted(section, "#") << '\n';
           Path below = path;
           below.push_back(section);
           print(below);
@@ -384,64 +211,9 @@ namespace Signoton
   std::string
   SceneFile::directory() const
   {
+    // what comes from a pipe is written where it is run
+    if (name.rfind("/dev/", 0) == 0 || name.rfind("/proc/", 0) == 0)
+      return "";
     return std::filesystem::path(name).parent_path().string();
-  }
-
-  void
-  SceneFile::apply_to(ParameterHandler &handler) const
-  {
-    const Tree tree = declared_tree(handler);
-    for (const auto &[path, line] : sections)
-      {
-        const Tree *node = &tree;
-        for (std::size_t depth = 0; depth < path.size(); ++depth)
-          {
-            const Tree *next = child(*node, path[depth]);
-            if (next == nullptr || is_entry(*next))
-              throw UserError(where(path),
-                              "unknown subsection '" + path[depth] + "'",
-                              "one of: " + join(names(*node, false), ", "),
-                              suggestion(path[depth],
-                                         names(*node, false),
-                                         "remove it"));
-            node = next;
-          }
-      }
-
-    for (const Entry &entry : entries)
-      {
-        const Tree *node = &tree;
-        for (const auto &section : entry.path)
-          node = child(*node, section);
-        const Tree *leaf = child(*node, entry.key);
-        if (leaf == nullptr || !is_entry(*leaf))
-          throw UserError(place(entry),
-                          "unknown key '" + entry.key + "'",
-                          "one of: " + join(names(*node, true), ", "),
-                          suggestion(entry.key,
-                                     names(*node, true),
-                                     "'signoton --template statics' lists "
-                                     "all keys with their meaning"));
-        for (const auto &section : entry.path)
-          handler.enter_subsection(section);
-        bool fits = true;
-        try
-          {
-            handler.set(entry.key, entry.value);
-          }
-        catch (const ExceptionBase &)
-          {
-            fits = false;
-          }
-        for (std::size_t i = 0; i < entry.path.size(); ++i)
-          handler.leave_subsection();
-        if (!fits)
-          throw UserError(place(entry),
-                          "'" + entry.value + "'",
-                          Patterns::pattern_factory(
-                            leaf->get<std::string>("pattern_description"))
-                            ->description(Patterns::PatternBase::Text),
-                          leaf->get<std::string>("documentation", ""));
-      }
   }
 } // namespace Signoton

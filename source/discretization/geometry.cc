@@ -1,4 +1,7 @@
 #include <signoton/base/function.h>
+#include <signoton/base/memory.h>
+#include <signoton/base/number.h>
+#include <signoton/base/quoting.h>
 #include <signoton/discretization/geometry.h>
 #include <signoton/discretization/mesh_reader.h>
 
@@ -54,17 +57,18 @@ namespace Signoton
                const std::string &expected)
     {
       std::vector<std::pair<std::string, std::string>> result;
-      for (const auto &item : Utilities::split_string_list(text, ';'))
+      for (const auto &item : split_unquoted(text, ';'))
         {
-          const auto colon = item.find(':');
+          const auto colon = find_unquoted(item, ':');
           if (colon == std::string::npos)
             throw UserError(where,
                             "'" + item + "'",
                             expected,
                             "put a colon after the name and ';' between "
                             "items");
-          result.emplace_back(Utilities::trim(item.substr(0, colon)),
-                              Utilities::trim(item.substr(colon + 1)));
+          result.emplace_back(unquoted(Utilities::trim(item.substr(0, colon))),
+                              unquoted(
+                                Utilities::trim(item.substr(colon + 1))));
         }
       return result;
     }
@@ -205,7 +209,8 @@ namespace Signoton
     handler.add_parameter(
       "Boundary names",
       boundary_names,
-      "Names for parts of the boundary, 'name: id; name: condition'. A "
+      "Names for parts of the boundary, 'name: id; name: condition'; a name "
+      "with ':' or ';' in double quotes. A "
       "condition in x, y, z selects the faces of the coarse mesh whose center "
       "fulfills it, for instance 'plate: y > 0.99 && x < 0.5'. Boxes and "
       "quarter shells have names already: left, right, (front, back,) bottom, "

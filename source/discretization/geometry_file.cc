@@ -1,3 +1,4 @@
+#include <signoton/base/quoting.h>
 #include <signoton/discretization/curved_geometry.h>
 #include <signoton/discretization/geometry.h>
 #include <signoton/discretization/gmsh_process.h>
@@ -133,6 +134,7 @@ namespace Signoton
                  std::vector<std::string> &notes) const
   {
     namespace fs                  = std::filesystem;
+    const std::string mesh_file   = unquoted(this->mesh_file);
     const fs::path    given       = mesh_file;
     const std::string path        = given.is_absolute() ?
                                       mesh_file :

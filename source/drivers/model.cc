@@ -28,7 +28,8 @@ namespace Signoton
                           surface_text,
                           "Boundaries with columns in the statistics, by name: "
                           "means of displacement, velocity and, for stress, "
-                          "traction. 'top, plate'.");
+                          "traction. 'top, plate'; names with a ',' in double "
+                          "quotes.");
     handler.add_parameter("Probe quantities",
                           probe_quantities,
                           "Columns of points and surfaces.",

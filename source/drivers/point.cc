@@ -1,5 +1,6 @@
 #include <signoton/base/output_file.h>
 #include <signoton/base/scene_template.h>
+#include <signoton/base/quoting.h>
 #include <signoton/drivers/point.h>
 #include <signoton/rheology/classification.h>
 
@@ -50,6 +51,8 @@ namespace Signoton
     add_parameters();
     file.apply_to(handler);
     interpret();
+    title     = unquoted(title);
+    directory = unquoted(directory);
   }
 
   void

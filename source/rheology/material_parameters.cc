@@ -1,3 +1,5 @@
+#include <signoton/base/number.h>
+#include <signoton/base/quoting.h>
 #include <signoton/rheology/library.h>
 #include <signoton/rheology/material.h>
 
@@ -247,14 +249,14 @@ namespace Signoton::Rheology
           throw UserError(file.where({"Schemes"}, key),
                           "the name '" + key + "'",
                           "a name that is not one of an element, a group or a "
-                          "ready scheme, without brackets, ',' and '='",
+                          "ready scheme",
                           "'my " + key + "', for instance");
         definitions[key] = file.value({"Schemes"}, key);
       }
     for (const auto &[key, text] : definitions)
       parse_scheme(text, file.where({"Schemes"}, key), definitions);
     const bool is_written = rheology.find('(') != std::string::npos ||
-                            definitions.count(rheology) > 0;
+                            definitions.count(unquoted(rheology)) > 0;
     if (!is_written && ready_scheme(rheology) == nullptr)
       {
         std::vector<std::string> names;
@@ -262,6 +264,8 @@ namespace Signoton::Rheology
           names.push_back(scheme.name);
         for (const auto &definition : definitions)
           names.push_back(definition.first);
+    if (ready_scheme(unquoted(rheology)) != nullptr)
+      rheology = unquoted(rheology);
         const std::string nearest = nearest_name(rheology, names);
         throw UserError(where,
                         "'" + rheology + "'",

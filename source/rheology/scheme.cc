@@ -1,4 +1,5 @@
 #include <signoton/base/exceptions.h>
+#include <signoton/base/quoting.h>
 #include <signoton/base/scene_file.h>
 #include <signoton/rheology/scheme.h>
 
@@ -13,6 +14,9 @@ namespace Signoton::Rheology
   namespace
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    // wider than what is allowed for the keys of a material, from which the
+    // moduli of a ready scheme are derived
+    constexpr double smallest = 1e-40, largest = 1e40;
 
     /** A named number of an element. */
     struct Argument
@@ -137,7 +141,7 @@ namespace Signoton::Rheology
       words()
       {
         skip_blanks();
-        std::string result;
+        std::string result = quoted_words();
         while (position < text.size() &&
                std::string("(),=").find(text[position]) == std::string::npos)
           {
@@ -148,6 +152,24 @@ namespace Signoton::Rheology
               result += ' ';
           }
         return Utilities::trim(result);
+      }
+
+      /** What stands in quotes here, if anything does. */
+      std::string
+      quoted_words()
+      {
+        const std::string rest = text.substr(position);
+        if (rest.empty() || rest[0] != '"')
+          return "";
+        // the first mark behind the quotes
+        std::size_t end = rest.size();
+        for (const char mark : {'(', ')', ',', '='})
+          end = std::min(end, find_unquoted(rest, mark));
+        const std::string words = Utilities::trim(rest.substr(0, end));
+        if (unquoted(words) == words)
+          return "";
+        position += end;
+        return unquoted(words);
       }
 
       Scheme
@@ -377,6 +399,9 @@ namespace Signoton::Rheology
           }
         if (!std::isfinite(result.value))
           refuse(at, "a finite number");
+        if (const double size = std::abs(result.value);
+            size > 0. && !(size >= smallest && size <= largest))
+          refuse(at, "zero, or a number of a size between 1e-40 and 1e40");
         for (const auto &other : arguments)
           if (other.name == result.name)
             refuse(result.position, "each constant once");
@@ -442,7 +467,6 @@ namespace Signoton::Rheology
   bool
   is_scheme_name(const std::string &name)
   {
-    return name.find_first_of("(),=") == std::string::npos &&
-           std::find(reserved.begin(), reserved.end(), name) == reserved.end();
+    return std::find(reserved.begin(), reserved.end(), name) == reserved.end();
   }
 } // namespace Signoton::Rheology

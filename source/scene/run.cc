@@ -1,3 +1,6 @@
+#include <signoton/base/first_rank.h>
+#include <signoton/base/memory.h>
+#include <signoton/base/quoting.h>
 #include <signoton/drivers/explicit_dynamics.h>
 #include <signoton/drivers/implicit_dynamics.h>
 #include <signoton/drivers/point.h>
@@ -70,12 +73,13 @@ namespace Signoton
      *  @param foreign a section that only the other kind of file has
      *  @param try_command what to run such a file by */
     SceneFile
-    read(const Options     &options,
+    read(const MPI_Comm    &communicator,
+         const Options     &options,
          const std::string &foreign,
          const std::string &kind,
          const std::string &try_command)
     {
-      SceneFile file = SceneFile::read(options.scene_file);
+      SceneFile file = read_scene(communicator, options.scene_file);
       for (const auto &assignment : options.overrides)
         file.override_entry(assignment);
       const auto sections = file.subsections({});
@@ -93,21 +97,23 @@ namespace Signoton
   run_scene(const MPI_Comm &communicator, const Options &options)
   {
     SceneFile file =
-      read(options,
+      read(communicator,
+           options,
            "Program",
            "a scene with a body; this file is for one material point",
            "signoton point");
     if (!options.output_directory.empty())
-      file.set({"Output"}, "Directory", options.output_directory);
+      file.set({"Output"}, "Directory", quoted(options.output_directory, "#"));
     const SceneFile::Path geometry = {"Geometry"};
-    if (const std::string mesh = file.value(geometry, "Mesh file");
+    if (const std::string mesh = unquoted(file.value(geometry, "Mesh file"));
         !mesh.empty())
       file.set(geometry,
                "Mesh file",
-               std::filesystem::absolute(
-                 std::filesystem::path(file.directory()) / mesh)
-                 .lexically_normal()
-                 .string());
+               quoted(std::filesystem::absolute(
+                        std::filesystem::path(file.directory()) / mesh)
+                        .lexically_normal()
+                        .string(),
+                      "#"));
 
     const std::string dimension = file.value({}, "Dimension", "2");
     if (dimension == "2")
@@ -124,7 +130,8 @@ namespace Signoton
   run_point(const MPI_Comm &communicator, const Options &options)
   {
     SceneFile file =
-      read(options,
+      read(communicator,
+           options,
            "Geometry",
            "one material point; this file is a scene with a body",
            "signoton");

@@ -1,3 +1,5 @@
+#include <signoton/base/quoting.h>
+#include <signoton/base/scene_function.h>
 #include <signoton/base/scene_template.h>
 #include <signoton/scene/scene.h>
 
@@ -12,8 +14,9 @@ namespace Signoton
   {
     model.file       = file;
     model.is_dynamic = file.value({}, "Analysis", analysis) == "dynamics";
-    model.time_integration.scheme =
-      file.value({"Time integration"}, "Scheme", model.time_integration.scheme);
+    // other values are refused with the rest
+    if (file.value({"Time integration"}, "Scheme") == "implicit")
+      model.time_integration.scheme = "implicit";
     drop_unused();
     for (const auto &name : file.subsections({"Materials"}))
       model.materials.emplace_back(name);
@@ -54,6 +57,8 @@ namespace Signoton
       {
         drop("Time integration");
         drop("Initial state", "Velocity");
+    title                  = unquoted(title);
+    model.output.directory = unquoted(model.output.directory);
         for (const char *key :
              {"Follow waves", "Refine threshold", "Coarsen threshold"})
           drop("Refinement", key);

@@ -1,3 +1,5 @@
+#include <signoton/base/number.h>
+#include <signoton/base/quoting.h>
 #include <signoton/scene/scene.h>
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>
@@ -209,11 +211,10 @@ namespace Signoton
       look(line.points(), {"Output"}, "Probe lines");
     for (const auto &force : model.point_forces)
       look({force.place}, {"Point forces", force.name}, "Point");
-    for (const auto &name :
-         Utilities::split_string_list(model.output.surface_text, ','))
+    for (const auto &item : split_unquoted(model.output.surface_text, ','))
       model.probe_surfaces.emplace_back(
-        name,
-        boundary_id_of(name,
+        unquoted(item),
+        boundary_id_of(unquoted(item),
                        space.boundary.names,
                        model.file.where({"Output"}, "Probe surfaces")));
   }
