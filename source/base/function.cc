@@ -1,4 +1,4 @@
-#include <signoton/base/function.h>
+#include <signoton/base/scene_function.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
@@ -154,7 +154,8 @@ namespace Signoton
                                         "constants of 'Loads / Constants'"),
                           "see the function parser of deal.II and muparser");
       }
-    auto function = std::make_unique<FunctionParser<dim>>(expressions.size());
+    auto function =
+      std::make_unique<SceneFunction<dim>>(expressions.size(), where);
     function->initialize(variables, expressions, constants, true);
     return function;
   }

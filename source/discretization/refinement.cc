@@ -16,10 +16,12 @@ namespace Signoton
     handler.add_parameter("Cycles in first step",
                           cycles_first,
                           "How often the first step is refined and solved "
-                          "again.");
+                          "again.",
+                          Patterns::Integer(0, 1000));
     handler.add_parameter("Cycles per step",
                           cycles_per_step,
-                          "The same for later steps.");
+                          "The same for later steps.",
+                          Patterns::Integer(0, 1000));
     handler.add_parameter("Every",
                           every,
                           "Refine in every n-th of the later steps.",

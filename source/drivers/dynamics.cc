@@ -78,6 +78,12 @@ namespace Signoton
                                  *model.initial_velocity,
                                  v);
         velocity.copy_locally_owned_data_from(v);
+        if (!std::isfinite(velocity.l2_norm()))
+          throw UserError(model.file.where({"Initial state"}, "Velocity"),
+                          "a velocity that is not finite in some point",
+                          "an expression that is finite in all points",
+                          "look for divisions by zero, roots and logarithms "
+                          "of negative numbers");
         for (unsigned int i = 0; i < velocity.locally_owned_size(); ++i)
           if (!(mass.local_element(i) > 0.)) // follows others
             velocity.local_element(i) = 0.;

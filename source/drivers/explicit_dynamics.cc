@@ -1,4 +1,6 @@
+#include <signoton/base/number.h>
 #include <signoton/drivers/explicit_dynamics.h>
+#include <signoton/drivers/run_checks.h>
 
 namespace Signoton
 {
@@ -48,9 +50,9 @@ namespace Signoton
     const TimeIntegration &parameters = model.time_integration;
     if (parameters.time_step > stable_step)
       throw UserError(model.file.where({"Time integration"}, "Time step"),
-                      Utilities::to_string(parameters.time_step),
-                      "at most the stable step, " +
-                        Utilities::to_string(stable_step) + " s",
+                      number_text(parameters.time_step),
+                      "at most the stable step, " + number_text(stable_step) +
+                        " s",
                       "leave it out: 'Safety' chooses a part of the stable "
                       "step");
     // only shocks that use up the safety make steps shorter
@@ -60,6 +62,16 @@ namespace Signoton
       usual <= stable_step      ? usual :
                                   parameters.safety * stable_step;
     const double left = parameters.end - time;
+    check_steps(model.file.where({"Time integration"},
+                                 parameters.time_step > 0. ? "Time step" :
+                                                             "End time"),
+                wanted,
+                parameters.start,
+                parameters.end,
+                left / wanted,
+                left / wanted / parameters.statistics_every,
+                "end earlier, let the mesh be coarser, or take 'Scheme = "
+                "implicit'");
     steps_left =
       std::max(1U, static_cast<unsigned int>(std::ceil(left / wanted - 1e-9)));
     time_step = left / steps_left;
@@ -170,13 +182,14 @@ namespace Signoton
     this->evaluate_dashpots();
     account(own, before);
     follow_shock(own.closing);
-    if (!std::isfinite(receipt.kinetic))
-      throw UserError("t = " + Utilities::to_string(time),
-                      "a velocity that is not a number",
-                      "a stable run",
-                      "a smaller 'Time integration / Safety', and loads that "
-                      "are finite at all times",
-                      ExitStatus::failure);
+    if (std::isfinite(receipt.kinetic))
+      return;
+    refuse_trouble_of_loads(model);
+    throw UserError("t = " + number_text(time),
+                    "a velocity that is not a number",
+                    "a stable run",
+                    "a smaller 'Time integration / Safety'",
+                    ExitStatus::failure);
   }
 
   template <int dim>

@@ -1,4 +1,6 @@
+#include <signoton/base/number.h>
 #include <signoton/drivers/implicit_dynamics.h>
+#include <signoton/drivers/run_checks.h>
 
 namespace Signoton
 {
@@ -202,11 +204,11 @@ namespace Signoton
         const NewtonResult result = solve(trial);
         if (!result.converged)
           {
+            refuse_trouble_of_loads(model);
             rejected += 1.;
             next_step = 0.5 * time_step;
             if (next_step < shortest_step())
-              throw UserError("the step from t = " +
-                                Utilities::to_string(start),
+              throw UserError("the step from t = " + number_text(start),
                               result.reason + ", in a step of " +
                                 short_number(time_step) + " s, too",
                               "a step that converges",

@@ -1,7 +1,17 @@
-#include <signoton/drivers/model.h>
+#include <signoton/base/number.h>
+#include <signoton/drivers/run_checks.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace Signoton
 {
+  namespace
+  {
+    const Patterns::Double time_pattern(-largest_number, largest_number);
+    const Patterns::Double length_pattern(0., largest_number);
+  } // namespace
+
   void
   OutputParameters::add_parameters(ParameterHandler &handler,
                                    const bool        is_dynamic)
@@ -15,11 +25,13 @@ namespace Signoton
       handler.add_parameter("Fields every",
                             fields_every,
                             "Write fields for ParaView every n-th step and "
-                            "after the last; 0: never.");
+                            "after the last; 0: never.",
+                            Patterns::Integer(0));
     handler.add_parameter("Checkpoint every",
                           checkpoint_every,
                           "Write a checkpoint every n-th step and after the "
-                          "last; 0: never.");
+                          "last; 0: never.",
+                          Patterns::Integer(0));
     handler.add_parameter("Probe points",
                           probe_text,
                           "Points with columns in the statistics: 'x, y; x, y' "
@@ -45,7 +57,7 @@ namespace Signoton
                             line_samples,
                             "How often lines are written, evenly over the "
                             "run. In statics it is every step.",
-                            Patterns::Integer(1));
+                            Patterns::Integer(1, 1000000));
     if (!is_dynamic)
       handler.add_parameter("Newton history",
                             newton_history,
@@ -65,13 +77,13 @@ namespace Signoton
                           "each a Newton iteration as in statics; for motions "
                           "that are slow beside waves.",
                           Patterns::Selection("explicit|implicit"));
-    handler.add_parameter("Start time", start, "In s.");
-    handler.add_parameter("End time", end, "In s.");
+    handler.add_parameter("Start time", start, "In s.", time_pattern);
+    handler.add_parameter("End time", end, "In s.", time_pattern);
     handler.add_parameter("Time step",
                           time_step,
                           "In s; 0: the stable one by 'Safety', or implicit "
                           "steps by 'Error tolerance'.",
-                          Patterns::Double(0.));
+                          length_pattern);
     handler.add_parameter(
       "Safety",
       safety,
@@ -86,7 +98,7 @@ namespace Signoton
     handler.add_parameter("Maximum time step",
                           maximum_step,
                           "Implicit: in s; 0: a fiftieth of the run.",
-                          Patterns::Double(0.));
+                          length_pattern);
     handler.add_parameter("Spectral radius",
                           spectral_radius,
                           "Implicit: what is left after a step of an "
@@ -114,7 +126,8 @@ namespace Signoton
     handler.add_parameter("Snapshots",
                           snapshots,
                           "Fields for ParaView at the start and as often as "
-                          "this, evenly over the run; 0: never.");
+                          "this, evenly over the run; 0: never.",
+                          Patterns::Integer(0, 100000));
     handler.leave_subsection();
   }
 
@@ -123,10 +136,21 @@ namespace Signoton
   {
     if (!(end > start))
       throw UserError(file.where({"Time integration"}, "End time"),
-                      Utilities::to_string(end),
-                      "a time after the start at " +
-                        Utilities::to_string(start),
+                      number_text(end),
+                      "a time after the start at " + number_text(start),
                       "set it");
+    if (!is_implicit())
+      return; // when the mesh is there
+    const bool   is_fixed = time_step > 0.;
+    const double step     = is_fixed ? time_step : longest_step();
+    check_steps(file.where({"Time integration"},
+                           is_fixed ? "Time step" : "Maximum time step"),
+                step,
+                start,
+                end,
+                (end - start) / step,
+                (end - start) / step / statistics_every,
+                "take longer steps");
   }
 
   void
@@ -135,25 +159,31 @@ namespace Signoton
     handler.enter_subsection("Load steps");
     handler.add_parameter("Start time",
                           start,
-                          "Pseudo-time t of the unloaded state.");
-    handler.add_parameter("End time", end, "Pseudo-time of the last step.");
+                          "Pseudo-time t of the unloaded state.",
+                          time_pattern);
+    handler.add_parameter("End time",
+                          end,
+                          "Pseudo-time of the last step.",
+                          time_pattern);
     handler.add_parameter("Step size",
                           step_size,
                           "First step of t.",
-                          Patterns::Double(1e-300));
+                          Patterns::Double(1. / largest_number,
+                                           largest_number));
     handler.add_parameter("Minimum step size",
                           minimum_step_size,
                           "A failed step is halved down to this size before "
                           "the run gives up; 0: a thousandth of 'Step size'.",
-                          Patterns::Double(0.));
+                          length_pattern);
     handler.add_parameter("Maximum step size",
                           maximum_step_size,
                           "Steps do not grow beyond this size.",
-                          Patterns::Double(1e-300));
+                          Patterns::Double(1. / largest_number));
     handler.add_parameter("Easy iterations",
                           easy_iterations,
                           "A step with at most this many Newton iterations "
-                          "lets the next one grow.");
+                          "lets the next one grow.",
+                          Patterns::Integer(0));
     handler.add_parameter("Growth",
                           growth,
                           "Factor by which the step grows; after a cut it "
@@ -168,13 +198,13 @@ namespace Signoton
     const auto refuse = [&](const std::string &key,
                             const double       value,
                             const std::string &expected) {
-      throw UserError(
-        file.where({"Load steps"}, key),
-        "'" + file.value({"Load steps"}, key, Utilities::to_string(value)) +
-          "'",
-        expected,
-        "pseudo-time grows from 'Start time' to 'End time' in "
-        "steps that begin with 'Step size'");
+      throw UserError(file.where({"Load steps"}, key),
+                      "'" +
+                        file.value({"Load steps"}, key, number_text(value)) +
+                        "'",
+                      expected,
+                      "pseudo-time grows from 'Start time' to 'End time' in "
+                      "steps that begin with 'Step size'");
     };
     if (!(end > start))
       refuse("End time", end, "a time after 'Start time'");
@@ -184,5 +214,25 @@ namespace Signoton
       refuse("Minimum step size", minimum_step_size, "at most 'Step size'");
     if (maximum_step_size < step_size)
       refuse("Maximum step size", maximum_step_size, "at least 'Step size'");
+    // as many as it takes if no step fails
+    const double length = end - start;
+    double       n = 0., step = step_size, reached = 0.;
+    for (; reached < length && growth > 1.001 && step < maximum_step_size; ++n)
+      {
+        reached += step;
+        step *= growth;
+      }
+    n += std::max(0., length - reached) / std::min(step, maximum_step_size);
+    check_steps(file.where({"Load steps"}, "Step size"),
+                step_size,
+                start,
+                end,
+                n,
+                n,
+                "take longer steps");
+    // a step that fails is cut until the clock would stand still
+    while (
+      !moves_clock(minimum_step_size, std::max(std::abs(start), std::abs(end))))
+      minimum_step_size *= 2.;
   }
 } // namespace Signoton

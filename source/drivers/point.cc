@@ -1,6 +1,7 @@
+#include <signoton/base/number.h>
 #include <signoton/base/output_file.h>
-#include <signoton/base/scene_template.h>
 #include <signoton/base/quoting.h>
+#include <signoton/base/scene_template.h>
 #include <signoton/drivers/point.h>
 #include <signoton/rheology/classification.h>
 
@@ -50,9 +51,9 @@ namespace Signoton
     material.emplace(names[0]);
     add_parameters();
     file.apply_to(handler);
-    interpret();
     title     = unquoted(title);
     directory = unquoted(directory);
+    interpret();
   }
 
   void
@@ -94,7 +95,7 @@ namespace Signoton
     handler.add_parameter("Confining pressure",
                           confining_pressure,
                           "In Pa, from the start on.",
-                          Patterns::Double(0.));
+                          Patterns::Double(0., largest_number));
     for (unsigned int c = 0; c < 6; ++c)
       {
         const std::string name = component_names[c];
@@ -108,10 +109,12 @@ namespace Signoton
     handler.add_parameter("Constants",
                           constants_text,
                           "For the expressions: 'r = 1e-3, T = 2'.");
-    handler.add_parameter("Start time", start_time, "In s.");
+    const Patterns::Double time(-largest_number, largest_number);
+    handler.add_parameter("Start time", start_time, "In s.", time);
     handler.add_parameter("End time",
                           end_time,
-                          "In s; by default where the last table ends, or 1.");
+                          "In s; by default where the last table ends, or 1.",
+                          time);
     handler.add_parameter("Turning points",
                           turning_text,
                           "Times in s, separated by commas, that steps have to "
@@ -122,7 +125,7 @@ namespace Signoton
     handler.add_parameter("Largest step",
                           step_size,
                           "In s; 0: a hundredth of the program.",
-                          Patterns::Double(0.));
+                          Patterns::Double(0., largest_number));
     handler.add_parameter("Tolerance",
                           tolerance,
                           "Error that a step may add to stress and strain, "
@@ -250,8 +253,8 @@ namespace Signoton
     const double length = end_time - start_time;
     if (!(length > 1e-5 * std::max(std::abs(start_time), std::abs(end_time))))
       refuse("End time",
-             Utilities::to_string(end_time),
-             "a time after the start at " + Utilities::to_string(start_time),
+             number_text(end_time),
+             "a time after the start at " + number_text(start_time),
              "set it");
     for (const auto &item : Utilities::split_string_list(turning_text, ','))
       turning_points.push_back(
@@ -263,6 +266,12 @@ namespace Signoton
                          turning_points.end());
     turning_points.push_back(end_time);
     step_size = step_size > 0. ? std::min(step_size, length) : length / 100.;
+    if (!(length / step_size <= 1e7))
+      throw UserError(file.where({"Time steps"}, "Largest step"),
+                      number_text(step_size) + ", " +
+                        number_text(std::round(length / step_size)) + " steps",
+                      "at most 1e7 steps",
+                      "'Tolerance' makes steps short where it is needed");
 
     std::string driven = is_shear ? "xy" : "xx";
     for (unsigned int c = 6; by_component && c-- > 0;)

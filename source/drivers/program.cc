@@ -1,3 +1,4 @@
+#include <signoton/base/number.h>
 #include <signoton/drivers/program.h>
 
 #include <deal.II/base/utilities.h>
@@ -53,7 +54,7 @@ namespace Signoton
         if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
           throw UserError(where,
                           "'" + item + "' after the time " +
-                            Utilities::to_string(times[times.size() - 2]),
+                            number_text(times[times.size() - 2]),
                           "increasing times",
                           "leave a short time for a jump");
       }
@@ -68,8 +69,7 @@ namespace Signoton
         const double value = expression->value(Point<1>());
         if (!std::isfinite(value))
           throw UserError(where,
-                          "no finite value at t = " +
-                            Utilities::to_string(time),
+                          "no finite value at t = " + number_text(time),
                           "an expression that is finite at all times",
                           "look for divisions by zero and roots of negative "
                           "numbers");

@@ -1,3 +1,4 @@
+#include <signoton/drivers/run_checks.h>
 #include <signoton/drivers/static_problem.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -74,13 +75,15 @@ namespace Signoton
     double sum = load_of_mesh.l1_norm();
     for (const auto &line : space.constraints.get_lines())
       sum += std::abs(line.inhomogeneity);
-    if (!std::isfinite(Utilities::MPI::sum(sum, model.communicator)))
-      throw UserError(model.file.where({"Boundaries"}),
-                      "a load or displacement that is not a finite number",
-                      "expressions that are finite on the whole boundary at "
-                      "all times of the run",
-                      "look for divisions by zero and roots of negative "
-                      "numbers; the accepted steps are complete");
+    if (std::isfinite(Utilities::MPI::sum(sum, model.communicator)))
+      return;
+    refuse_trouble_of_loads(model);
+    throw UserError(model.file.where({"Boundaries"}),
+                    "a load or displacement that is not a finite number",
+                    "expressions that are finite on the whole boundary at "
+                    "all times of the run",
+                    "look for divisions by zero and roots of negative "
+                    "numbers; the accepted steps are complete");
   }
 
   template <int dim>

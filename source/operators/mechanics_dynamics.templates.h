@@ -1,6 +1,8 @@
 #ifndef signoton_operators_mechanics_dynamics_templates_h
 #define signoton_operators_mechanics_dynamics_templates_h
 
+#include <signoton/base/scene_function.h>
+
 #include "mechanics_kernel.h"
 
 #include <deal.II/base/mpi.h>
@@ -151,6 +153,9 @@ namespace Signoton
               }
           }
       }
+    // first what is no number: it contradicts every law
+    refuse_trouble<dim>(space.communicator,
+                        {initial_state.strain, initial_state.stress});
     refuse_contradiction(largest, largest_given, place);
     integrate_rest();
   }

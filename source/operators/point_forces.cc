@@ -1,5 +1,8 @@
 #include <signoton/operators/point_forces.h>
 
+#include <cmath>
+#include <limits>
+
 namespace Signoton
 {
   template <int dim>
@@ -20,11 +23,13 @@ namespace Signoton
       }
     catch (const ExceptionBase &)
       {
-        throw UserError(where,
-                        "'" + text + "'",
-                        "numbers",
-                        "coordinates of points are no expressions");
+        p[0] = std::numeric_limits<double>::quiet_NaN();
       }
+    if (!std::isfinite(p.norm_square()))
+      throw UserError(where,
+                      "'" + text + "'",
+                      "numbers",
+                      "coordinates of points are no expressions");
     return p;
   }
 

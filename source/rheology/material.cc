@@ -1,24 +1,12 @@
+#include <signoton/base/number.h>
 #include <signoton/rheology/classification.h>
 #include <signoton/rheology/library.h>
 #include <signoton/rheology/material.h>
 
-#include <charconv>
 #include <cmath>
 
 namespace Signoton::Rheology
 {
-  namespace
-  {
-    /** The shortest text that is read as the same number. */
-    std::string
-    exact(const double value)
-    {
-      std::array<char, 32> text;
-      return {text.data(),
-              std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-    }
-  } // namespace
-
   bool
   Material::is_elastic() const
   {
@@ -132,17 +120,18 @@ namespace Signoton::Rheology
   {
     std::string text = admissible_set + ", ";
     if (admissible_set == "mises schleicher")
-      text += "friction = " + exact(friction_parameter);
+      text += "friction = " + number_text(friction_parameter);
     else if (admissible_set == "coulomb mohr")
-      text += "friction angle = " + exact(friction_angle);
+      text += "friction angle = " + number_text(friction_angle);
     else if (admissible_set == "no tension")
-      text += "tensile strength = " + exact(tensile_strength);
+      text += "tensile strength = " + number_text(tensile_strength);
     else
-      text += "strength = " + exact(shear_strength);
+      text += "strength = " + number_text(shear_strength);
     if (with_cohesion && cohesion > 0.)
-      text += ", cohesion = " + exact(cohesion);
+      text += ", cohesion = " + number_text(cohesion);
     if (isotropic_hardening_modulus > 0.)
-      text += ", isotropic hardening = " + exact(isotropic_hardening_modulus);
+      text +=
+        ", isotropic hardening = " + number_text(isotropic_hardening_modulus);
     return text;
   }
 
@@ -151,24 +140,24 @@ namespace Signoton::Rheology
                     const std::optional<double> &ratio) const
   {
     const auto spring_text = [](const Moduli &moduli) {
-      return "spring(bulk = " + exact(moduli.bulk) +
-             ", shear = " + exact(moduli.shear) + ")";
+      return "spring(bulk = " + number_text(moduli.bulk) +
+             ", shear = " + number_text(moduli.shear) + ")";
     };
     if (name == "spring")
       return spring_text(spring());
     if (name == "second spring")
       return spring_text({second_bulk_modulus, second_shear_modulus});
     if (name == "damper")
-      return "damper(bulk viscosity = " + exact(bulk_viscosity) +
-             ", shear viscosity = " + exact(shear_viscosity) + ")";
+      return "damper(bulk viscosity = " + number_text(bulk_viscosity) +
+             ", shear viscosity = " + number_text(shear_viscosity) + ")";
     if (name == "cohesive hinge")
       return "hinge(" + set_text() + ")";
     if (name == "hinge")
-      return "hinge(von mises, strength = " + exact(shear_strength) + ")";
+      return "hinge(von mises, strength = " + number_text(shear_strength) + ")";
     if (name == "contact" && uses("cohesive hinge"))
       return "contact(" + set_text(false) + ")";
     if (name == "contact with gap")
-      return "contact(" + set_text() + ", gap = " + exact(gap) + ")";
+      return "contact(" + set_text() + ", gap = " + number_text(gap) + ")";
 
     const bool        is_hinge = name == "hinge on set";
     const std::string set =

@@ -6,6 +6,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 // The constants of a material in the scene file, and what is asked of them.
 
@@ -20,6 +22,14 @@ namespace Signoton::Rheology
     {
       return std::find(list.begin(), list.end(), item) != list.end();
     }
+    /** The size of a number, zero for other texts. */
+    double
+    size_of(const std::string &text)
+    {
+      char        *end   = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      return *end == '\0' ? std::abs(value) : 0.;
+    }
   } // namespace
 
   void
@@ -28,7 +38,8 @@ namespace Signoton::Rheology
     const Patterns::Double non_negative(0.);
     handler.add_parameter("Material id",
                           id,
-                          "The material id of the cells that consist of it.");
+                          "The material id of the cells that consist of it.",
+                          Patterns::Integer(0));
     std::vector<std::string> names;
     for (const auto &scheme : ready_schemes())
       names.push_back(
@@ -253,6 +264,8 @@ namespace Signoton::Rheology
                           "'my " + key + "', for instance");
         definitions[key] = file.value({"Schemes"}, key);
       }
+    if (ready_scheme(unquoted(rheology)) != nullptr)
+      rheology = unquoted(rheology);
     for (const auto &[key, text] : definitions)
       parse_scheme(text, file.where({"Schemes"}, key), definitions);
     const bool is_written = rheology.find('(') != std::string::npos ||
@@ -264,8 +277,6 @@ namespace Signoton::Rheology
           names.push_back(scheme.name);
         for (const auto &definition : definitions)
           names.push_back(definition.first);
-    if (ready_scheme(unquoted(rheology)) != nullptr)
-      rheology = unquoted(rheology);
         const std::string nearest = nearest_name(rheology, names);
         throw UserError(where,
                         "'" + rheology + "'",
@@ -305,6 +316,15 @@ namespace Signoton::Rheology
                                ""),
                "remove the key, it would have no effect, or choose the "
                "rheology that it belongs to");
+
+    for (const std::string &key : file.keys(path))
+      if (const double size =
+            key == "Material id" ? 0. : size_of(file.value(path, key));
+          size > 0. && !(size >= 1. / largest_number && size <= largest_number))
+        refuse(key,
+               "zero, or a number between 1e-30 and 1e30",
+               "check the unit; scale all stresses if they are that far from "
+               "one");
 
     const bool by_young  = given("Young modulus") || given("Poisson ratio");
     const bool by_moduli = given("Bulk modulus") || given("Shear modulus");
@@ -349,8 +369,8 @@ namespace Signoton::Rheology
              "an angle in degrees, between 1.6 and 89.9",
              friction_angle > 0. ?
                "if the value is in radians, write " +
-                 Utilities::to_string(
-                   std::round(100. * friction_angle / degree) / 100.) :
+                 number_text(std::round(100. * friction_angle / degree) /
+                             100.) :
                "for zero friction take Rheology = elastic plastic with "
                "Admissible set = tresca");
     if (contains(required, "Friction parameter") && !(friction_parameter > 0.))

@@ -1,5 +1,4 @@
 #include <signoton/base/quoting.h>
-#include <signoton/base/scene_function.h>
 #include <signoton/base/scene_template.h>
 #include <signoton/scene/scene.h>
 

@@ -134,8 +134,7 @@ namespace Signoton
           }
         if (Utilities::MPI::min(lowest, model.communicator) < -1e-10 * size)
           throw UserError(model.file.where({}, "Embedding"),
-                          "a mesh that reaches to x = " +
-                            Utilities::to_string(lowest),
+                          "a mesh that reaches to x = " + number_text(lowest),
                           "x >= 0: x is the distance from the axis",
                           "shift the mesh, or model one half of it");
       }
@@ -160,6 +159,7 @@ namespace Signoton
          Utilities::split_string_list(model.output.probe_text, ';'))
       model.probes.push_back(parse_point<dim>(text, points_at));
     const std::string lines_at = model.file.where({"Output"}, "Probe lines");
+    double            n_points = 0.;
     for (const auto &text :
          Utilities::split_string_list(model.output.line_text, ';'))
       {
@@ -177,10 +177,23 @@ namespace Signoton
                           "'from : to : number of points', at least 2",
                           dim == 2 ? "for instance '0, 0 : 1, 0 : 200'" :
                                      "for instance '0, 0, 0 : 1, 0, 0 : 200'");
+        n_points += n;
+        if (n_points > 1e6)
+          throw UserError(lines_at,
+                          number_text(n_points) + " points up to '" + text +
+                            "'",
+                          "at most a million points on all lines",
+                          "a line needs no more points than it meets cells");
         model.probe_lines.push_back({parse_point<dim>(parts[0], lines_at),
                                      parse_point<dim>(parts[1], lines_at),
                                      static_cast<unsigned int>(n)});
       }
+    if (model.is_dynamic && n_points * model.output.line_samples > 1e8)
+      throw UserError(model.file.where({"Output"}, "Probe line samples"),
+                      number_text(n_points) + " points, " +
+                        std::to_string(model.output.line_samples) + " times",
+                      "at most 1e8 rows in the files of lines",
+                      "fewer samples or fewer points");
   }
 
   template <int dim>

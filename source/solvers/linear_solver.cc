@@ -43,11 +43,13 @@ namespace Signoton
     handler.add_parameter("Direct below in 2D",
                           direct_limit_2d,
                           "Number of unknowns up to which auto chooses direct "
-                          "in two dimensions.");
+                          "in two dimensions.",
+                          Patterns::Integer(0));
     handler.add_parameter("Direct below in 3D",
                           direct_limit_3d,
                           "The same in three dimensions, where factors fill "
-                          "up.");
+                          "up.",
+                          Patterns::Integer(0));
     handler.add_parameter("Maximum iterations",
                           maximum_iterations,
                           "Iterations of cg or gmres after which a solve has "
