@@ -7,6 +7,37 @@
 
 namespace Signoton
 {
+  namespace
+  {
+    /** What gravity does not act on, for want of a density; nothing at all is
+     *  an error. */
+    template <int dim>
+    std::string
+    check_weight(const Model<dim> &model, const std::string &gravity)
+    {
+      const auto parts = Utilities::split_string_list(gravity, ';');
+      if (std::all_of(parts.begin(), parts.end(), [](const auto &part) {
+            return part == "0";
+          }))
+        return "";
+      std::vector<std::string> weightless;
+      for (const auto &material : model.materials)
+        if (!(material.density > 0.))
+          weightless.push_back(material.name);
+      const std::string where = model.file.where({"Loads"}, "Gravity");
+      if (weightless.size() == model.materials.size())
+        throw UserError(where,
+                        "gravity, and no material with a density",
+                        "a density of the materials that have a weight",
+                        "'set Density = 1800' in kg/m^3, for instance");
+      if (!weightless.empty())
+        return where + " does not act on " + join(weightless, ", ") +
+               ": no density";
+      return "";
+    }
+
+  } // namespace
+
   template <int dim>
   Scene<dim>::Scene(const MPI_Comm &communicator, const SceneFile &file)
     : model(communicator)
@@ -240,6 +271,9 @@ namespace Signoton
         vector_function(reference_velocity_text,
                         file.where({"Reference solution"}, "Velocity"));
     model.gravity_varies = depends_on_time(gravity_text);
+    if (const std::string weightless = check_weight(model, gravity_text);
+        !weightless.empty())
+      warnings.push_back(weightless);
     interpret_initial_state();
     if (model.is_dynamic)
       interpret_dynamics();
