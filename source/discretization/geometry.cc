@@ -20,6 +20,11 @@ namespace Signoton
   {
     const SceneFile::Path section = {"Geometry"};
 
+    /** What the mesh and the numbers of its unknowns take (peak of --explain, by
+     *  cells). */
+    template <int dim>
+    constexpr double bytes_per_cell = dim == 2 ? 700. : 1600.;
+
     /** Names of the boundary ids that deal.II gives to colorized boxes and
      *  shells, so that common scenes need not list them. */
     BoundaryNames
@@ -460,6 +465,14 @@ namespace Signoton
       }
     if (!faces.empty())
       mesh.add_periodicity(faces);
+    const double n_cells = std::ldexp(double(mesh.n_global_active_cells()),
+                                      dim * initial_refinement);
+    require_memory(mesh.get_communicator(),
+                   bytes_per_cell<dim> * n_cells /
+                     Utilities::MPI::n_mpi_processes(mesh.get_communicator()),
+                   file.where(section, "Initial refinement"),
+                   "a mesh of " + number_text(n_cells) + " cells",
+                   "fewer refinements, or more machines");
     mesh.refine_global(initial_refinement);
     return parts;
   }

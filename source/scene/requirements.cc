@@ -131,6 +131,29 @@ namespace Signoton
   }
 
   template <int dim>
+  MemoryForecast
+  memory_forecast(const Model<dim> &model, const double growth)
+  {
+    const bool is_explicit =
+      model.is_dynamic && !model.time_integration.is_implicit();
+    unsigned int bytes = 0;
+    for (const auto &effect : requirements(model))
+      bytes += effect.bytes_per_point;
+    const double points = growth * model.space->mesh.n_global_active_cells() *
+                          model.space->quadrature.size();
+    const double n = growth * model.space->dof_handler.n_dofs();
+    // a row couples with the unknowns of the patch around a node, on average
+    const double row = dim * std::pow(model.space->degree == 1 ? 3. : 4., dim);
+    const double matrix = is_explicit ? 0. : 12. * n * row;
+    // Multigrid takes about the matrix again; factors fill up like n log n in
+    // the plane, and more than anyone should wait for in space.
+    const double solver = model.linear_solver.is_direct(n, dim) ?
+                            matrix * std::log2(n) :
+                            1.5 * matrix;
+    return {points * bytes, matrix, solver, (is_explicit ? 12. : 30.) * 8. * n};
+  }
+
+  template <int dim>
   std::string
   explain(const Model<dim> &model)
   {
@@ -157,31 +180,21 @@ namespace Signoton
           << "): " << material.description() << "\n";
 
     out << "\nEffect                      on   bytes/point  why\n";
-    unsigned int bytes = 0;
     for (const auto &effect : requirements(model))
-      {
-        out << std::left << std::setw(28) << effect.name << std::setw(5)
-            << (effect.on ? "yes" : "no") << std::right << std::setw(11)
-            << effect.bytes_per_point << "  " << effect.why << "\n";
-        bytes += effect.bytes_per_point;
-      }
-    const double cells  = model.space->mesh.n_global_active_cells();
-    const double points = cells * model.space->quadrature.size();
-    const double n      = model.space->dof_handler.n_dofs();
-    // a row couples with the unknowns of the patch around a node, on average
-    const double row = dim * std::pow(model.space->degree == 1 ? 3. : 4., dim);
+      out << std::left << std::setw(28) << effect.name << std::setw(5)
+          << (effect.on ? "yes" : "no") << std::right << std::setw(11)
+          << effect.bytes_per_point << "  " << effect.why << "\n";
+    const double cells    = model.space->mesh.n_global_active_cells();
+    const double points   = cells * model.space->quadrature.size();
+    const double n        = model.space->dof_handler.n_dofs();
     const auto   forecast = [&](const std::string &when, const double growth) {
-      const double matrix = is_explicit ? 0. : 12. * growth * n * row;
-      // Multigrid takes about the matrix again; factors fill up like n log n in
-      // the plane, and more than anyone should wait for in space.
-      const double solver = model.linear_solver.is_direct(growth * n, dim) ?
-                                matrix * std::log2(growth * n) :
-                                1.5 * matrix;
+      const MemoryForecast memory = memory_forecast(model, growth);
       out << "  " << std::left << std::setw(20) << when << std::right
-          << std::fixed << std::setprecision(1) << std::setw(10)
-          << growth * points * bytes / 1e6 << std::setw(10) << matrix / 1e6
-          << std::setw(10) << solver / 1e6 << std::setw(10)
-          << (is_explicit ? 12. : 30.) * 8. * growth * n / 1e6 << "\n";
+          << std::fixed << std::setprecision(1);
+      for (const double part :
+           {memory.points, memory.matrix, memory.solver, memory.vectors})
+        out << std::setw(10) << part / 1e6;
+      out << "\n";
     };
     out << "\nUnknowns " << n << ", cells " << cells << ", points " << points
         << "\nMemory forecast in MB, besides some 200 MB of libraries a rank:\n"
@@ -201,6 +214,10 @@ namespace Signoton
   requirements<2>(const Model<2> &);
   template std::vector<Effect>
   requirements<3>(const Model<3> &);
+  template MemoryForecast
+  memory_forecast<2>(const Model<2> &, const double);
+  template MemoryForecast
+  memory_forecast<3>(const Model<3> &, const double);
   template std::string
   explain<2>(const Model<2> &);
   template std::string

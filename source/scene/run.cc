@@ -52,6 +52,16 @@ namespace Signoton
         screen << "  warning: " << warning << "\n";
       for (const auto &note : scene.notes)
         screen << "  mesh: " << note << "\n";
+      if (options.action != Options::Action::explain)
+        require_memory(communicator,
+                       memory_forecast(scene.model).total() / ranks,
+                       options.scene_file,
+                       "a mesh with " +
+                         std::to_string(
+                           scene.model.space->dof_handler.n_dofs()) +
+                         " unknowns",
+                       "a coarser mesh or more machines; '--explain' tells "
+                       "what takes the memory");
       if (options.action != Options::Action::run)
         {
           if (scene.model.is_dynamic)

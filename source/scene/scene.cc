@@ -56,6 +56,8 @@ namespace Signoton
       model.point_forces.emplace_back(name);
     add_parameters(handler);
     model.file.apply_to(handler);
+    title                  = unquoted(title);
+    model.output.directory = unquoted(model.output.directory);
     interpret();
   }
 
@@ -87,8 +89,6 @@ namespace Signoton
       {
         drop("Time integration");
         drop("Initial state", "Velocity");
-    title                  = unquoted(title);
-    model.output.directory = unquoted(model.output.directory);
         for (const char *key :
              {"Follow waves", "Refine threshold", "Coarsen threshold"})
           drop("Refinement", key);

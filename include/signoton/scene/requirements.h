@@ -22,6 +22,24 @@ namespace Signoton
   std::vector<Effect>
   requirements(const Model<dim> &model);
 
+  /** Bytes on all ranks, by what takes them. */
+  struct MemoryForecast
+  {
+    double points, matrix, solver, vectors;
+
+    double
+    total() const
+    {
+      return points + matrix + solver + vectors;
+    }
+  };
+
+  /** For the mesh at hand, or one with some times its unknowns; besides the
+   *  mesh and some 200 MB of libraries a rank. */
+  template <int dim>
+  MemoryForecast
+  memory_forecast(const Model<dim> &model, const double growth = 1.);
+
   /** The bill as a table, with a forecast of the memory for the mesh at hand
    *  in bytes on all ranks. Collective. */
   template <int dim>
