@@ -254,7 +254,7 @@ namespace Signoton
       throw UserError(
         file.where(section, "Generator"),
         "'" + generator + "' with arguments '" + arguments + "', " + found,
-        "a function of dealii::GridGenerator for " + std::to_string(dim) +
+        "a function of deal.II's GridGenerator for " + std::to_string(dim) +
           "D and all its arguments without default",
         "compare the manual of GridGenerator: ':' separates arguments, ',' "
         "coordinates, and booleans are 'true' or 'false'");

@@ -1,0 +1,12 @@
+// A hundred mutated scenes: refused in words, or valid.
+
+#include "scene_fuzz.h"
+
+#include <signoton/base/mpi_session.h>
+
+int
+main(int argc, char **argv)
+{
+  Signoton::MPISession mpi(argc, argv);
+  return SceneFuzz::run(100);
+}
