@@ -9,7 +9,12 @@ namespace Signoton
 {
   using namespace dealii;
 
-  /** Whether write_file() begins a file or goes on with it. */
+  /**
+   * Whether write_file() begins a file or goes on with it. A file that is
+   * replaced is there as it was, or as it is to be, whatever happens: the new
+   * one is written beside it, with the ending `.part`, is brought to the disk
+   * and takes its name. What does not fit behind a file is cut off again.
+   */
   enum class WriteMode
   {
     replace,
@@ -34,6 +39,11 @@ namespace Signoton
              const std::string &file_name,
              const std::string &text,
              const WriteMode    mode = WriteMode::replace);
+
+  /** Bring a file, or the names in a directory, to the disk; whether they are
+   *  there. */
+  bool
+  synchronize(const std::string &path);
 } // namespace Signoton
 
 #endif
