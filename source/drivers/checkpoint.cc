@@ -1,4 +1,5 @@
 #include <signoton/base/output_file.h>
+#include <signoton/discretization/mesh_identity.h>
 #include <signoton/drivers/checkpoint.h>
 
 #include <deal.II/distributed/solution_transfer.h>
@@ -19,7 +20,7 @@ namespace Signoton
 {
   namespace
   {
-    constexpr double format = 2;
+    constexpr double format = 3;
 
     const std::string checksum = "checksum of ";
 
@@ -37,7 +38,6 @@ namespace Signoton
       return {{"format", format},
               {"dimension", dim},
               {"degree", model.space->degree},
-              {"coarse cells", model.space->mesh.n_cells(0)},
               {"numbers of history a point", model.mechanics->history_width()}};
     }
 
@@ -65,13 +65,40 @@ namespace Signoton
       return crc.checksum();
     }
 
-    /** The contents of a file, empty if there is none. */
-    std::string
-    contents(const std::string &file_name)
+    /** Of a file of any size; of none if there is no such file. */
+    double
+    checksum_of_file(const std::string &file_name)
     {
-      std::ostringstream text;
-      text << std::ifstream(file_name, std::ios::binary).rdbuf();
-      return text.str();
+      boost::crc_32_type crc;
+      std::ifstream      file(file_name, std::ios::binary);
+      std::vector<char>  block(1 << 20);
+      do
+        {
+          file.read(block.data(), block.size());
+          crc.process_bytes(block.data(), file.gcount());
+      } while (file);
+      return crc.checksum();
+    }
+
+    /** Remove the files of a checkpoint; what is not of it goes to another
+     *  directory, or keeps its own. */
+    void
+    remove_checkpoint(const std::string              &directory,
+                      const std::vector<std::string> &files,
+                      const std::string              &refuge)
+    {
+      namespace fs = std::filesystem;
+      std::error_code error;
+      for (const std::string &file : files)
+        fs::remove(directory + "/" + file, error);
+      std::vector<fs::path> foreign;
+      for (const auto &entry : fs::directory_iterator(directory, error))
+        foreign.push_back(entry.path());
+      for (const fs::path &path : foreign)
+        if (const fs::path there = fs::path(refuge) / path.filename();
+            !refuge.empty() && !fs::exists(there, error))
+          fs::rename(path, there, error);
+      fs::remove(directory, error);
     }
 
     void
@@ -89,6 +116,15 @@ namespace Signoton
                         "(resolved.prm beside it)");
     }
   } // namespace
+
+  template <int dim>
+  const std::vector<std::string> Checkpoint<dim>::files = {
+    "numbers",
+    "room",
+    "mesh",
+    "mesh.info",
+    "mesh_fixed.data",
+    "mesh_variable.data"};
 
   template <int dim>
   Checkpoint<dim>::Checkpoint(Model<dim> &model, const std::string &directory)
@@ -141,8 +177,14 @@ namespace Signoton
     std::string damaged;
     if (is_root(model.communicator))
       {
+        // a run may have been killed while it exchanged the old for the new
+        const std::string old = directory + ".old";
+        if (!std::filesystem::exists(directory) && std::filesystem::exists(old))
+          directory = old;
         // the last line is the checksum of the others
-        const std::string  text = contents(directory + "/numbers");
+        std::ostringstream file;
+        file << std::ifstream(directory + "/numbers", std::ios::binary).rdbuf();
+        const std::string  text = file.str();
         std::istringstream lines(text);
         double             value = 0.;
         std::string        name;
@@ -158,13 +200,13 @@ namespace Signoton
           for (const auto &entry : names(checksum + "mesh"))
             {
               const std::string file = entry.substr(checksum.size());
-              if (number(entry) !=
-                  checksum_of(contents(directory + "/" + file)))
+              if (number(entry) != checksum_of_file(directory + "/" + file))
                 damaged = file;
             }
       }
-    damaged = Utilities::MPI::broadcast(model.communicator, damaged);
-    numbers = Utilities::MPI::broadcast(model.communicator, numbers);
+    damaged   = Utilities::MPI::broadcast(model.communicator, damaged);
+    directory = Utilities::MPI::broadcast(model.communicator, directory);
+    numbers   = Utilities::MPI::broadcast(model.communicator, numbers);
     if (!damaged.empty())
       throw UserError("checkpoint '" + directory + "'",
                       "file '" + damaged + "' is missing or damaged",
@@ -190,7 +232,7 @@ namespace Signoton
     if (is_root(model.communicator))
       {
         std::error_code error;
-        fs::remove_all(unfinished, error);
+        remove_checkpoint(unfinished, files, "");
         fs::create_directories(unfinished, error);
         problem = error || !has_room(unfinished, estimate) ? 1 : 0;
       }
@@ -231,13 +273,14 @@ namespace Signoton
       }
     model.space->mesh.save(mesh_file(unfinished));
 
-    for (const auto &[name, value] : identity(model))
-      set(name, value);
+    for (const auto &same : {identity(model), mesh_identity(*model.space)})
+      for (const auto &[name, value] : same)
+        set(name, value);
     set("active cells", model.space->mesh.n_global_active_cells());
     if (is_root(model.communicator))
-      for (const auto &entry : fs::directory_iterator(unfinished))
-        set(checksum + entry.path().filename().string(),
-            checksum_of(contents(entry.path().string())));
+      for (const std::string &file : files)
+        if (fs::exists(unfinished + "/" + file))
+          set(checksum + file, checksum_of_file(unfinished + "/" + file));
     std::ostringstream text;
     text.precision(std::numeric_limits<double>::max_digits10);
     for (const auto &[name, value] : numbers)
@@ -245,32 +288,63 @@ namespace Signoton
     const double sum = checksum_of(text.str());
     text << sum << ' ' << checksum << "numbers\n";
     write_file(model.communicator, unfinished + "/numbers", text.str());
+    put_in_place(unfinished);
+  }
+
+  template <int dim>
+  void
+  Checkpoint<dim>::put_in_place(const std::string &unfinished)
+  {
+    namespace fs = std::filesystem;
+    bool ok      = true;
     if (is_root(model.communicator))
       {
         const std::string old = directory + ".old";
         std::error_code   error;
-        fs::remove_all(old, error);
-        if (fs::exists(directory))
-          fs::rename(directory, old);
-        fs::rename(unfinished, directory);
-        fs::remove_all(old, error);
+        for (const std::string &file : files)
+          if (fs::exists(unfinished + "/" + file, error))
+            ok = synchronize(unfinished + "/" + file) && ok;
+        ok = synchronize(unfinished) && ok;
+        if (ok)
+          {
+            if (fs::exists(directory, error))
+              {
+                remove_checkpoint(old, files, directory);
+                fs::rename(directory, old, error);
+              }
+            fs::rename(unfinished, directory, error);
+            ok = !error;
+            remove_checkpoint(old, files, directory);
+          }
       }
     // nobody goes on before the checkpoint is in place
-    MPI_Barrier(model.communicator);
+    if (Utilities::MPI::max(ok ? 0U : 1U, model.communicator) > 0)
+      throw UserError("checkpoint '" + directory + "'",
+                      "it cannot be brought to the disk",
+                      "space and permission to write",
+                      "free space; the last complete checkpoint is there, or "
+                      "beside it with the ending '.old'",
+                      ExitStatus::output_failed);
   }
 
   template <int dim>
   void
   Checkpoint<dim>::load_mesh()
   {
-    // A run may have been killed while it exchanged the old for the new.
-    const std::string old = directory + ".old";
-    if (!std::filesystem::exists(directory) && std::filesystem::exists(old))
-      directory = old;
     read_numbers();
     model.space->mesh.coarsen_global(100);
     for (const auto &[name, value] : identity(model))
       check_same(directory, name, number(name), value);
+    if (const std::string difference =
+          difference_of_meshes(numbers, mesh_identity(*model.space));
+        !difference.empty())
+      throw UserError("checkpoint '" + directory + "'",
+                      "another coarse mesh than that of the scene: they differ "
+                      "in " +
+                        difference,
+                      "the mesh with which the run began",
+                      "put the mesh file, or 'Geometry' in resolved.prm, back "
+                      "as it was; for another mesh start anew");
     try
       {
         model.space->mesh.load(mesh_file(directory));

@@ -14,6 +14,9 @@ namespace Signoton
   class Checkpoint
   {
   public:
+    /** All files that a checkpoint may have. */
+    static const std::vector<std::string> files;
+
     /** @param directory where it is, or is to be */
     Checkpoint(Model<dim> &model, const std::string &directory);
 
@@ -51,6 +54,10 @@ namespace Signoton
 
     void
     read_numbers();
+
+    /** Exchange the old for the new. */
+    void
+    put_in_place(const std::string &unfinished);
 
     Model<dim>                   &model;
     std::string                   directory;
