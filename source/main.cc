@@ -27,7 +27,8 @@ compression differently
   signoton --template NAME           print a commented parameter file (statics,
                                      dynamics, point)
   signoton --resume DIRECTORY        go on from the checkpoint in an output
-                                     directory, on any number of ranks
+                                     directory, on any number of ranks; with
+                                     --set, to a later end, for instance
   signoton --set 'Section/Key=value' override one entry; may be repeated.
                                      'Loads/Constants=a = 3' changes the
                                      constant a, and keeps the others
@@ -41,7 +42,9 @@ Names with a '#', '/', ':', ';', ',' or '=' in them are put in double quotes,
 in files and here: --set 'Boundaries/"top / left"/Pressure=1'.
 
 Exit status: 0 completed, 1 error of the program or too little memory, 2 bad
-input, 3 no equilibrium found, 4 results could not be written.
+input, 3 no equilibrium found, 4 results could not be written, 7 ended by a
+signal (SIGUSR1, SIGTERM, SIGINT) after a checkpoint, from which --resume goes
+on.
 )";
 
   /** What main() does for arguments that need no scene; false for others. */

@@ -180,7 +180,7 @@ namespace Signoton
                             const double       kinetic,
                             const DynamicSums &own)
   {
-    const auto  all  = sum<10>({{force_work,
+    const auto all   = sum<11>({{force_work,
                                  outer_work,
                                  damped,
                                  kinetic,
@@ -189,7 +189,9 @@ namespace Signoton
                                  own.dissipated,
                                  own.viscous,
                                  own.shock,
-                                 own.quiet_cells}});
+                                 own.quiet_cells,
+                               SignalWatch::received() ? 1. : 0.}});
+    is_interrupted   = all[10] > 0.;
     DynamicSums sums = own;
     sums.stored      = all[4];
     sums.voids       = all[5];
@@ -312,7 +314,8 @@ namespace Signoton
             {"initial energy", &receipt.initial},
             {"unknowns by steps", &unknown_steps},
             {"largest energy", &receipt.largest},
-            {"largest jump", &largest_jump}};
+            {"largest jump", &largest_jump},
+            {"missed look at the mesh", &missed_look}};
   }
 
   template <int dim>
@@ -321,29 +324,34 @@ namespace Signoton
   {
     const auto      timer = model.ledger.time("output");
     Checkpoint<dim> checkpoint(model, output.checkpoint_directory());
+    missed_look = is_finished() && is_look_due() ? 1. : 0.;
     for (const auto &[name, number] : numbers_to_keep())
       checkpoint.set(name, *number);
     checkpoint.set("accepted steps", n_steps);
     checkpoint.set("lines of statistics", n_reported);
-    checkpoint.set("snapshots", n_snapshots);
-    checkpoint.set("samples", n_samples);
     output.save(checkpoint);
     checkpoint.write(history_space.get(),
                      {&displacement, &velocity, &acceleration, &internal});
   }
 
   template <int dim>
-  void
+  bool
   Dynamics<dim>::resume(const std::string &directory)
   {
+    output.lock();
     Checkpoint<dim> checkpoint(model, directory);
     checkpoint.load_mesh();
     for (const auto &[name, number] : numbers_to_keep())
       *number = checkpoint.number(name);
-    n_steps     = checkpoint.number("accepted steps");
-    n_reported  = checkpoint.number("lines of statistics");
-    n_snapshots = checkpoint.number("snapshots");
-    n_samples   = checkpoint.number("samples");
+    if (is_finished())
+      return false;
+    if (missed_look > 0.)
+      time_step = 0.; // that of the last step may have been cut
+    n_steps    = checkpoint.number("accepted steps");
+    n_reported = checkpoint.number("lines of statistics");
+    // the end may be another one now
+    n_snapshots = part_of(model.time_integration.snapshots);
+    n_samples   = part_of(model.output.line_samples);
     n_lines     = part_of(20);
     setup();
     checkpoint.load_fields(
@@ -358,6 +366,16 @@ namespace Signoton
     evaluate_dashpots();
     model.mechanics->remember_dilatation(displacement);
     output.resume(checkpoint, n_reported);
+    return true;
+  }
+
+  template <int dim>
+  void
+  Dynamics<dim>::make_up_for_mesh()
+  {
+    if (missed_look > 0. && model.wave_refinement.is_on() && mark())
+      transfer();
+    missed_look = 0.;
   }
 
   template <int dim>
@@ -386,8 +404,10 @@ namespace Signoton
       }
     else
       {
-        resume(resume_directory);
+        if (!resume(resume_directory))
+          return output.nothing_left(time, "Time integration");
         choose_step();
+        make_up_for_mesh();
       }
     output.start(model.time_integration.start, model.time_integration.end);
     output.screen << introduction() << "\n\n"
@@ -417,8 +437,12 @@ namespace Signoton
             const auto timer = model.ledger.time("mesh and transfer");
             transfer();
           }
-        if (every > 0 && (is_finished() || n_steps % every == 0))
+        const bool ends_early = is_interrupted && !is_finished();
+        if (ends_early ||
+            (every > 0 && (is_finished() || n_steps % every == 0)))
           save();
+        if (ends_early)
+          return output.interrupt(n_steps, time);
       }
     if (std::abs(receipt.lost_part()) > 0.01)
       output.screen << "\n  warning: the steps have "

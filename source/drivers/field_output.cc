@@ -14,8 +14,9 @@ namespace Signoton
   } // namespace
 
   template <int dim>
-  FieldOutput<dim>::FieldOutput(Model<dim> &model)
+  FieldOutput<dim>::FieldOutput(Model<dim> &model, OutputDirectory &directory)
     : model(model)
+    , directory(directory)
   {}
 
   template <int dim>
@@ -116,7 +117,6 @@ namespace Signoton
                base + ".vtu" :
                base + "." + Utilities::int_to_string(r, 4) + ".vtu";
     };
-    const std::string     directory = model.output.directory + "/";
     DataOutBase::VtkFlags flags;
     flags.time  = time;
     flags.cycle = step;
@@ -127,17 +127,25 @@ namespace Signoton
     // the rank that meets it, while the others would wait.
     std::ostringstream text, record, collection;
     output.write_vtu(text);
-    write_file(model.communicator, directory + piece(rank), text.str(), true);
-
-    list.emplace_back(time, n_ranks == 1 ? piece(0) : base + ".pvtu");
     std::vector<std::string> pieces;
     for (unsigned int r = 0; r < n_ranks; ++r)
       pieces.push_back(piece(r));
+    directory.enter(pieces);
+    write_file(model.communicator,
+               directory.path + "/" + piece(rank),
+               text.str(),
+               true);
+
+    list.emplace_back(time, n_ranks == 1 ? piece(0) : base + ".pvtu");
     output.write_pvtu_record(record, pieces);
     if (n_ranks > 1)
-      write_file(model.communicator, directory + base + ".pvtu", record.str());
+      write_file(model.communicator,
+                 directory.path_of(base + ".pvtu"),
+                 record.str());
     DataOutBase::write_pvd_record(collection, list);
-    write_file(model.communicator, directory + "fields.pvd", collection.str());
+    write_file(model.communicator,
+               directory.path_of("fields.pvd"),
+               collection.str());
   }
 
   template class FieldOutput<2>;

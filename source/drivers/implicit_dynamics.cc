@@ -199,7 +199,9 @@ namespace Signoton
         const double left = parameters.end - start,
                      n    = std::max(1., std::ceil(left / next_step - 1e-3));
         time_step         = !is_automatic || n < 2.5 ? left / n : next_step;
-        time              = start + time_step;
+        // an end that moves later finds the step as it was to be
+        const double uncut = time_step < next_step ? next_step : 0.;
+        time               = start + time_step;
         model.set_time(time);
         const NewtonResult result = solve(trial);
         if (!result.converged)
@@ -244,7 +246,8 @@ namespace Signoton
           }
         next_step =
           std::min(parameters.longest_step(),
-                   std::max(std::min(stable_step, 2. * time_step), bounded));
+                   std::max(
+                     {std::min(stable_step, 2. * time_step), bounded, uncut}));
         break;
       }
     if (!(time < parameters.end))

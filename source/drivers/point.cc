@@ -2,6 +2,7 @@
 #include <signoton/base/output_file.h>
 #include <signoton/base/quoting.h>
 #include <signoton/base/scene_template.h>
+#include <signoton/base/signals.h>
 #include <signoton/drivers/point.h>
 #include <signoton/rheology/classification.h>
 
@@ -359,6 +360,8 @@ namespace Signoton
   ExitStatus
   PointDriver::run()
   {
+    results = std::make_unique<OutputDirectory>(communicator, directory);
+    results->begin("point\\.(csv|gp|svg)");
     try
       {
         return drive();
@@ -386,9 +389,10 @@ namespace Signoton
     const double jump = 1e-5 * (end_time - start_time);
     // the answer to what is given at the start, at once: dampers stand still
     state.time -= least;
-    unsigned int n_steps = 0, n_cut = 0, most_iterations = 0;
-    double       dt         = step_size;
-    bool         has_failed = false;
+    unsigned int      n_steps = 0, n_cut = 0, most_iterations = 0;
+    double            dt         = step_size;
+    bool              has_failed = false, is_interrupted = false;
+    const SignalWatch watch;
     if (const auto first = step(state, least))
       state = *first;
     else
@@ -396,7 +400,8 @@ namespace Signoton
     state.time = start_time;
     if (!has_failed)
       record(state);
-    for (std::size_t turn = 0; !has_failed && end_time - state.time > least;)
+    for (std::size_t turn = 0;
+         !has_failed && !is_interrupted && end_time - state.time > least;)
       {
         if (!(turning_points[turn] > state.time + least))
           {
@@ -448,6 +453,8 @@ namespace Signoton
         record(state);
         ++n_steps;
         most_iterations = std::max(most_iterations, state.iterations);
+        is_interrupted =
+          Utilities::MPI::max(SignalWatch::received(), communicator) != 0;
       }
     const bool drawn = write();
     screen << n_steps << " steps, " << n_cut
@@ -455,6 +462,11 @@ namespace Signoton
            << "at most " << most_iterations << " local iterations\n"
            << "Results: " << directory << "/point.csv"
            << (drawn ? ", point.svg" : "") << "\n";
+    if (is_interrupted)
+      {
+        screen << "A signal ends the program at t = " << state.time << "\n";
+        return interrupted;
+      }
     if (!has_failed)
       return ExitStatus::completed;
     screen << "No state found that follows t = " << state.time

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -33,31 +32,27 @@ namespace Signoton
       std::max(stress_scale, std::sqrt(dot(state.stress, state.stress)));
     const Tensor2<> strain = from_mandel(state.strain),
                     stress = from_mandel(state.stress);
-    std::ostringstream line;
-    line.precision(12);
-    line << state.time;
+    Table::Row row         = {state.time};
     for (const Tensor2<> &tensor : {strain, stress})
       for (unsigned int c = 0; c < 6; ++c)
-        line << ", " << tensor.access_raw_entry(c);
-    line << ", " << trace(strain) << ", "
-         << 2. * shear_intensity(deviatoric_part(strain)) << ", "
-         << trace(stress) / 3. << ", "
-         << shear_intensity(deviatoric_part(stress)) << ", " << state.work
-         << ", " << state.stored << ", " << state.dissipated << ", "
-         << state.iterations << ", " << state.region << "\n";
-    lines.push_back(line.str());
+        row.push_back(tensor.access_raw_entry(c));
+    row.insert(row.end(),
+               {trace(strain),
+                2. * shear_intensity(deviatoric_part(strain)),
+                trace(stress) / 3.,
+                shear_intensity(deviatoric_part(stress)),
+                state.work,
+                state.stored,
+                state.dissipated,
+                double(state.iterations),
+                double(state.region)});
+    rows.push_back(row);
   }
 
   bool
   PointDriver::write() const
   {
-    std::error_code error; // the file will say
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      std::filesystem::create_directories(directory, error);
-    std::string text = join(columns, ", ") + "\n";
-    for (const std::string &line : lines)
-      text += line;
-    write_file(communicator, directory + "/point.csv", text);
+    Table(communicator, results->path_of("point.csv")).append(columns, rows);
     return plot();
   }
 
@@ -75,8 +70,9 @@ namespace Signoton
                                                           " (J/m^3)" :
                                                           "";
     };
+    results->enter({"point.svg"});
     write_file(communicator,
-               directory + "/point.gp",
+               results->path_of("point.gp"),
                "# gnuplot point.gp\n"
                "set terminal svg size 480,380 enhanced font 'sans,12' "
                "background 'white'\n"
@@ -94,7 +90,7 @@ namespace Signoton
                  " with lines lw 2 lc rgb '#1f5fa8'\n");
     if (Utilities::MPI::this_mpi_process(communicator) != 0)
       return true;
-    const bool drawn = run_gnuplot(directory, "point.gp");
+    const bool drawn = run_gnuplot(results->path, "point.gp");
     if (!drawn)
       std::cout << "No picture: gnuplot is not there, or could not draw; "
                    "'gnuplot point.gp' in the directory of the results does "

@@ -5,7 +5,6 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/numerics/vector_tools_evaluate.h>
 
-#include <fstream>
 #include <sstream>
 
 namespace Signoton
@@ -21,11 +20,16 @@ namespace Signoton
   } // namespace
 
   template <int dim>
-  Probes<dim>::Probes(Model<dim> &model)
+  Probes<dim>::Probes(Model<dim> &model, OutputDirectory &directory)
     : model(model)
+    , directory(directory)
     , mesh_changes(model.space->mesh.signals.any_change.connect(
         [this] { is_current = false; }))
-  {}
+  {
+    for (unsigned int l = 0; l < model.probe_lines.size(); ++l)
+      tables.emplace_back(model.communicator,
+                          directory.path + "/" + file(l, ".csv"));
+  }
 
   template <int dim>
   bool
@@ -259,56 +263,60 @@ namespace Signoton
 
   template <int dim>
   std::string
-  Probes<dim>::file(const unsigned int line, const std::string &ending) const
+  Probes<dim>::file(const unsigned int line, const std::string &ending)
   {
-    return model.output.directory + "/line-" + std::to_string(line + 1) +
-           ending;
+    return "line-" + std::to_string(line + 1) + ending;
   }
 
   template <int dim>
-  void
+  std::string
+  Probes<dim>::file_names() const
+  {
+    std::string names;
+    for (unsigned int l = 0; l < model.probe_lines.size(); ++l)
+      names += "|" + file(l, "\\.(csv|gp|png)");
+    return names;
+  }
+
+  template <int dim>
+  std::string
   Probes<dim>::write_lines(const double      time,
                            const VectorType &displacement,
                            const VectorType *velocity)
   {
     update();
+    Table::Names names = {"time", "distance"};
+    for (const char *quantity : {"displacement", "velocity"})
+      if (quantity[0] == 'd' || velocity != nullptr)
+        for (unsigned int d = 0; d < dim; ++d)
+          names.push_back(quantity + (" " + axes[d]));
+    for (unsigned int e = 0; e < n_entries<dim>; ++e)
+      names.push_back("stress " + entries[e]);
+
+    std::string changes;
     for (unsigned int l = 0; l < lines.size(); ++l)
       {
         const auto  &line   = model.probe_lines[l];
         const auto   at     = line.points();
         const Values values = evaluate(*lines[l], displacement, velocity, true);
-        std::ostringstream text;
-        text.precision(8);
-        if (n_samples == 0)
-          {
-            text << "\"time\",\"distance\"";
-            for (const char *quantity : {"displacement", "velocity"})
-              if (quantity[0] == 'd' || velocity != nullptr)
-                for (unsigned int d = 0; d < dim; ++d)
-                  text << ",\"" << quantity << ' ' << axes[d] << '"';
-            for (unsigned int e = 0; e < n_entries<dim>; ++e)
-              text << ",\"stress " << entries[e] << '"';
-            text << '\n';
-          }
+        std::vector<Table::Row> rows;
         for (unsigned int i = 0; i < at.size(); ++i)
           {
-            text << time << ',' << at[i].distance(line.from);
+            Table::Row row = {time, at[i].distance(line.from)};
             for (unsigned int d = 0; d < dim; ++d)
-              text << ',' << values.displacement[i][d];
+              row.push_back(values.displacement[i][d]);
             if (velocity != nullptr)
               for (unsigned int d = 0; d < dim; ++d)
-                text << ',' << values.velocity[i][d];
+                row.push_back(values.velocity[i][d]);
             for (unsigned int e = 0; e < n_entries<dim>; ++e)
-              text << ',' << values.stress[i][e];
-            text << '\n';
+              row.push_back(values.stress[i][e]);
+            rows.push_back(row);
           }
-        text << '\n'; // a scan ends, as gnuplot has it
-        write_file(model.communicator,
-                   file(l, ".csv"),
-                   text.str(),
-                   WriteMode::append);
+        directory.enter({file(l, ".csv")});
+        changes += tables[l].append(names, rows, true);
       }
     ++n_samples;
+    return changes;
   }
 
   template <int dim>
@@ -342,7 +350,7 @@ namespace Signoton
         };
         write_file(
           model.communicator,
-          file(l, ".gp"),
+          directory.path_of(file(l, ".gp")),
           "# gnuplot line-" + std::to_string(l + 1) +
             ".gp: place to the right, time upwards\n"
             "set terminal png truecolor size 1150,480 font 'sans,11'\n"
@@ -359,12 +367,29 @@ namespace Signoton
                   model.is_dynamic ? first + dim : first) +
             panel("stress " + entries[along] + " (Pa)", 3 + n_fields + along) +
             "unset multiplot\n");
+        directory.enter({file(l, ".png")});
         if (Utilities::MPI::this_mpi_process(model.communicator) != 0)
           continue;
-        drawn = drawn && run_gnuplot(model.output.directory,
+        drawn = drawn && run_gnuplot(directory.path,
                                      "line-" + std::to_string(l + 1) + ".gp");
       }
     return drawn;
+  }
+
+  template <int dim>
+  std::vector<std::pair<std::string, double>>
+  Probes<dim>::place(const unsigned int l) const
+  {
+    const auto       &line = model.probe_lines[l];
+    const std::string of   = " of line " + std::to_string(l + 1);
+    std::vector<std::pair<std::string, double>> numbers = {
+      {"number of points" + of, line.n_points}};
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        numbers.emplace_back("begin " + axes[d] + of, line.from[d]);
+        numbers.emplace_back("end " + axes[d] + of, line.to[d]);
+      }
+    return numbers;
   }
 
   template <int dim>
@@ -372,6 +397,9 @@ namespace Signoton
   Probes<dim>::save(Checkpoint<dim> &checkpoint) const
   {
     checkpoint.set("samples of lines", n_samples);
+    for (unsigned int l = 0; l < model.probe_lines.size(); ++l)
+      for (const auto &[name, value] : place(l))
+        checkpoint.set(name, value);
   }
 
   template <int dim>
@@ -379,20 +407,19 @@ namespace Signoton
   Probes<dim>::resume(const Checkpoint<dim> &checkpoint)
   {
     n_samples = checkpoint.number("samples of lines");
-    if (Utilities::MPI::this_mpi_process(model.communicator) != 0)
-      return;
-    for (unsigned int l = 0; l < model.probe_lines.size(); ++l)
+    for (unsigned int l = 0; l < tables.size(); ++l)
       {
-        std::ifstream      old(file(l, ".csv"));
-        std::ostringstream kept;
-        unsigned int       n = 0;
-        for (std::string text; n < n_samples && std::getline(old, text);)
-          {
-            kept << text << '\n';
-            n += text.empty() ? 1 : 0;
-          }
-        old.close();
-        std::ofstream(file(l, ".csv")) << kept.str();
+        const auto now = place(l);
+        // a line that is new begins a file
+        if (!checkpoint.names(now[0].first).empty())
+          for (const auto &[name, value] : now)
+            if (std::abs(checkpoint.number(name) - value) >
+                1e-9 * std::abs(value))
+              throw UserError(model.file.where({"Output"}, "Probe lines"),
+                              "another " + name + " than before the restart",
+                              "the lines of before; new ones follow them",
+                              "add lines at the end of the list");
+        tables[l].resume(n_samples, false);
       }
   }
 

@@ -1,10 +1,8 @@
-#include <signoton/base/output_file.h>
 #include <signoton/drivers/run_output.h>
 
 #include <deal.II/numerics/vector_tools_integrate_difference.h>
 
-#include <filesystem>
-#include <fstream>
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -24,27 +22,6 @@ namespace Signoton
         text << std::fixed << std::setprecision(1) << seconds / 3600. << " h";
       return text.str();
     }
-
-    /** Remove what an earlier run has left: a later --resume must not mix two
-     *  runs. */
-    void
-    remove_results(const std::string &directory)
-    {
-      namespace fs = std::filesystem;
-      std::error_code       error;
-      std::vector<fs::path> old;
-      for (const auto &entry : fs::directory_iterator(directory, error))
-        {
-          const std::string name = entry.path().filename().string();
-          if (name == "statistics.csv" || name == "ledger.json" ||
-              name == "checkpoint" || name.rfind("checkpoint.", 0) == 0 ||
-              name == "fields.pvd" || name.rfind("fields-", 0) == 0 ||
-              name.rfind("line-", 0) == 0)
-            old.push_back(entry.path());
-        }
-      for (const auto &path : old)
-        fs::remove_all(path, error);
-    }
   } // namespace
 
   std::string
@@ -60,42 +37,51 @@ namespace Signoton
     : screen(std::cout,
              Utilities::MPI::this_mpi_process(model.communicator) == 0)
     , model(model)
-    , fields(model)
-    , probes(model)
+    , directory(model.communicator, model.output.directory)
+    , statistics(model.communicator, directory.path + "/statistics.csv")
+    , fields(model, directory)
+    , probes(model, directory)
   {}
 
   template <int dim>
-  std::string
-  RunOutput<dim>::checkpoint_directory() const
+  void
+  RunOutput<dim>::lock()
   {
-    return model.output.directory + "/checkpoint";
+    directory.lock();
+  }
+
+  template <int dim>
+  std::string
+  RunOutput<dim>::checkpoint_directory()
+  {
+    std::vector<std::string> names;
+    for (const std::string ending : {"", ".unfinished", ".old"})
+      {
+        names.push_back("checkpoint" + ending);
+        for (const std::string &file : Checkpoint<dim>::files)
+          names.push_back("checkpoint" + ending + "/" + file);
+      }
+    directory.enter(names);
+    return directory.path + "/checkpoint";
   }
 
   template <int dim>
   void
   RunOutput<dim>::start(const double from, const double to)
   {
-    start_time                   = from;
-    end_time                     = to;
-    const std::string &directory = model.output.directory;
-    unsigned int       problem   = 0;
-    if (Utilities::MPI::this_mpi_process(model.communicator) == 0)
-      {
-        std::error_code error;
-        std::filesystem::create_directories(directory, error);
-        std::ofstream resolved(directory + "/resolved.prm");
-        resolved << model.resolved_scene << std::flush;
-        problem = resolved ? 0 : 1;
-        if (!resumed)
-          remove_results(directory);
-      }
-    if (Utilities::MPI::max(problem, model.communicator) > 0)
-      throw UserError("output directory '" + directory + "'",
-                      "it cannot be created or written to",
-                      "a directory with permission to write",
-                      "set 'Output / Directory', or --output DIRECTORY",
-                      ExitStatus::output_failed);
-    screen << "Writing to " << directory << "\n\n";
+    start_time = from;
+    end_time   = to;
+    if (!resumed)
+      directory.begin(
+        "resolved\\.prm|statistics\\.csv|ledger\\.json|fields\\.pvd|"
+        "fields-[0-9]+(\\.[0-9]+)?\\.p?vtu|checkpoint(\\.old|\\.unfinished)?" +
+        probes.file_names());
+    write_file(model.communicator,
+               directory.path_of("resolved.prm"),
+               model.resolved_scene);
+    directory.enter({"statistics.csv", "ledger.json"});
+    watch.emplace();
+    screen << "Writing to " << directory.path << "\n\n";
   }
 
   template <int dim>
@@ -167,17 +153,14 @@ namespace Signoton
   void
   RunOutput<dim>::append(const Line &line)
   {
-    const std::string  file_name = model.output.directory + "/statistics.csv";
-    std::ostringstream text;
-    text.precision(12);
-    const bool is_new = !std::filesystem::exists(file_name);
-    for (std::size_t i = 0; is_new && i < line.size(); ++i)
-      text << (i > 0 ? "," : "") << '"' << line[i].first << '"';
-    text << (is_new ? "\n" : "");
-    for (std::size_t i = 0; i < line.size(); ++i)
-      text << (i > 0 ? "," : "") << line[i].second;
-    text << '\n';
-    write_file(model.communicator, file_name, text.str(), WriteMode::append);
+    Table::Names names;
+    Table::Row   values;
+    for (const auto &[name, value] : line)
+      {
+        names.push_back(name);
+        values.push_back(value);
+      }
+    screen << statistics.append(names, {values});
   }
 
   template <int dim>
@@ -197,7 +180,7 @@ namespace Signoton
                               const double      time)
   {
     if (probes.has_lines())
-      probes.write_lines(time, displacement, velocity);
+      screen << probes.write_lines(time, displacement, velocity);
   }
 
   template <int dim>
@@ -219,19 +202,44 @@ namespace Signoton
     model.ledger.bytes("shock viscosity", memory.shock_viscosity);
     model.ledger.bytes("mesh data", memory.mesh_data);
     model.ledger.count("accepted steps", n_steps);
-    model.ledger.write(model.output.directory + "/ledger.json");
+    model.ledger.write(directory.path_of("ledger.json"));
     const std::string summary = model.ledger.summary();
     screen << "\nWhere the time went:\n" << summary;
     if (!fields.snapshots().empty())
-      screen << "Fields for ParaView: " << model.output.directory
-             << "/fields.pvd\n";
+      screen << "Fields for ParaView: " << directory.path << "/fields.pvd\n";
     if (probes.has_lines())
       screen << (probes.draw_lines() ?
                    "Lines over time:     " :
                    "Lines over time (gnuplot could not draw them): ")
-             << model.output.directory << "/line-*\n";
-    screen << "Statistics by step:  " << model.output.directory
-           << "/statistics.csv\n";
+             << directory.path << "/line-*\n";
+    screen << "Statistics by step:  " << directory.path << "/statistics.csv\n";
+  }
+
+  template <int dim>
+  ExitStatus
+  RunOutput<dim>::interrupt(const unsigned int n_steps, const double time)
+  {
+    screen << "\n"
+           << SignalWatch::name(Utilities::MPI::max(SignalWatch::received(),
+                                                    model.communicator))
+           << " ends the run at t = " << short_number(time, 8)
+           << ", after a checkpoint. To go on:\n  signoton --resume "
+           << directory.path << std::endl;
+    finish(n_steps);
+    return interrupted;
+  }
+
+  template <int dim>
+  ExitStatus
+  RunOutput<dim>::nothing_left(const double time, const std::string &section)
+  {
+    screen << "\nThe run is finished: its end, t = "
+           << model.file.value({section}, "End time", "1")
+           << ", is not beyond what it has reached, t = "
+           << short_number(time, 8)
+           << ". To go on from there:\n  signoton --resume " << directory.path
+           << " --set '" << section << "/End time=...'" << std::endl;
+    return ExitStatus::completed;
   }
 
   template <int dim>
@@ -254,22 +262,11 @@ namespace Signoton
     for (const auto &name : checkpoint.names(prefix))
       snapshots.emplace_back(checkpoint.number(name),
                              name.substr(prefix.size()));
+    std::sort(snapshots.begin(), snapshots.end()); // by time
     fields.resume(snapshots);
     probes.resume(checkpoint);
 
-    // drop lines of steps that are taken again
-    const std::string file_name = model.output.directory + "/statistics.csv";
-    if (Utilities::MPI::this_mpi_process(model.communicator) == 0)
-      {
-        std::ifstream      old(file_name);
-        std::ostringstream kept;
-        std::string        line;
-        for (unsigned int i = 0; i <= n_lines && std::getline(old, line); ++i)
-          kept << line << '\n';
-        old.close();
-        if (!kept.str().empty())
-          std::ofstream(file_name) << kept.str();
-      }
+    statistics.resume(n_lines, true);
   }
 
   template class RunOutput<2>;

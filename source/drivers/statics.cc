@@ -284,9 +284,12 @@ namespace Signoton
       }
     else
       {
+        results.lock();
         Checkpoint<dim> checkpoint(model, resume_directory);
         checkpoint.load_mesh();
-        time      = checkpoint.number("time");
+        time = checkpoint.number("time");
+        if (is_last_step())
+          return results.nothing_left(time);
         step_size = checkpoint.number("step size");
         model.set_time(time);
         setup_unknowns();
@@ -307,7 +310,12 @@ namespace Signoton
             return ExitStatus::no_equilibrium;
           }
         const unsigned int every = model.output.checkpoint_every;
-        if (every > 0 && (is_last_step() || results.n_accepted() % every == 0))
+        const bool         is_interrupted =
+          !is_last_step() &&
+          Utilities::MPI::max(SignalWatch::received(), model.communicator) != 0;
+        if (is_interrupted ||
+            (every > 0 &&
+             (is_last_step() || results.n_accepted() % every == 0)))
           {
             const auto      timer = model.ledger.time("output");
             Checkpoint<dim> checkpoint(model, results.checkpoint_directory());
@@ -316,6 +324,8 @@ namespace Signoton
             results.save(checkpoint);
             checkpoint.write(history_space.get(), {&displacement});
           }
+        if (is_interrupted)
+          return results.interrupt(time);
       }
     results.finish();
     return ExitStatus::completed;

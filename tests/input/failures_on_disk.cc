@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 
 using namespace Signoton;
 namespace fs = std::filesystem;
@@ -34,6 +35,14 @@ namespace
       }
   }
 
+  std::string
+  contents(const std::string &file_name)
+  {
+    std::ostringstream text;
+    text << std::ifstream(file_name).rdbuf();
+    return text.str();
+  }
+
   void
   count_lines(const std::string &file_name)
   {
@@ -50,7 +59,8 @@ main(int argc, char **argv)
 {
   MPISession mpi(argc, argv);
   output.open("output");
-  for (const char *old : {"results", "good", "no_room", "file", "damaged"})
+  for (const char *old :
+       {"results", "good", "no_room", "file", "damaged", "full"})
     fs::remove_all(old);
 
   Options options;
@@ -99,6 +109,28 @@ main(int argc, char **argv)
   options.resume_directory = "nowhere/checkpoint";
   run("a checkpoint that is not there", options);
 
+  // another body, in each of the ways that a checkpoint knows
+  options.resume_directory = "good/checkpoint";
+  for (const char *override :
+       {"Geometry/Arguments=2, 2, 3 : 0, 0, 0 : 1, 1, 1 : true",
+        "Geometry/Arguments=2, 2, 2 : 0, 0, 0 : 1, 1, 1.5 : true",
+        "Geometry/Distortion=1e-4",
+        "Geometry/Boundary names=plate: z > 0.999 && x < 0.5",
+        "Geometry/Material ids=7: x < 0.5",
+        "Geometry/Periodic boundaries=left: right"})
+    {
+      options.overrides = {override,
+                           "Load steps/End time=2",
+                           "Boundaries/left/Symmetry=false"};
+      if (std::string(override).find("ids") != std::string::npos)
+        for (const char *entry : {"Material id=7",
+                                  "Rheology=elastic",
+                                  "Bulk modulus=1",
+                                  "Shear modulus=0.6"})
+          options.overrides.push_back(std::string("Materials/other/") + entry);
+      run(std::string("a checkpoint of another body: ") + override, options);
+    }
+
   // every file in turn, cut short and gone
   options.resume_directory = "damaged";
   for (const char *name : {"numbers", "mesh", "mesh.info", "mesh_fixed.data"})
@@ -115,6 +147,27 @@ main(int argc, char **argv)
               (gone ? " gone" : " cut short"),
             options);
       }
+
+  // what is there must not be cut before there is room for the new
+  fs::copy("good", "full", fs::copy_options::recursive);
+  options.scene_file        = "full/resolved.prm";
+  options.output_directory  = "full";
+  options.resume_directory  = "full/checkpoint";
+  options.overrides         = {"Load steps/End time=2"};
+  const std::string files[] = {"statistics.csv", "resolved.prm"};
+  for (const rlim_t bytes : {150, 1000})
+    {
+      const rlimit none{bytes, unlimited.rlim_max};
+      setrlimit(RLIMIT_FSIZE, &none);
+      run("a run that goes on where nothing can be written", options);
+      setrlimit(RLIMIT_FSIZE, &unlimited);
+      for (const std::string &file : files)
+        output << file << " is "
+               << (contents("full/" + file) == contents("good/" + file) ?
+                     "as it was" :
+                     "LOST")
+               << "\n";
+    }
 
   // a new run leaves nothing of the old one that could be resumed
   options                  = Options();

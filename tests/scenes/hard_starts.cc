@@ -8,6 +8,7 @@
 #include <signoton/scene/scene.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 using namespace Signoton;
@@ -60,7 +61,8 @@ subsection Materials
     Options options;
     options.scene_file       = "block.prm";
     options.output_directory = "results";
-    options.overrides        = overrides;
+    std::filesystem::remove_all("results");
+    options.overrides = overrides;
     if (run_scene(MPI_COMM_WORLD, options) != ExitStatus::completed)
       return {};
     return PhysicalNumbers::read("results/statistics.csv");

@@ -7,6 +7,8 @@
 #include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
 
+#include <filesystem>
+
 using namespace Signoton;
 
 int
@@ -33,7 +35,8 @@ main(int argc, char **argv)
           options.scene_file =
             SIGNOTON_SOURCE_DIR "/tests/scenes/" + scene + ".prm";
           options.output_directory = "results";
-          options.overrides        = variant;
+          std::filesystem::remove_all("results");
+          options.overrides = variant;
           bool good =
             run_scene(MPI_COMM_WORLD, options) == ExitStatus::completed;
           const auto line =

@@ -9,6 +9,7 @@
 
 #include <deal.II/base/table_handler.h>
 
+#include <filesystem>
 #include <iostream>
 
 /**
@@ -40,7 +41,8 @@ namespace NewtonCounts
           Options options;
           options.scene_file       = SIGNOTON_SOURCE_DIR "/" + scene;
           options.output_directory = "counts";
-          options.overrides        = always;
+          std::filesystem::remove_all("counts");
+          options.overrides = always;
           options.overrides.insert(options.overrides.end(),
                                    variant.begin(),
                                    variant.end());

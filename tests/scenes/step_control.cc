@@ -8,6 +8,7 @@
 #include <signoton/scene/scene.h>
 
 #include <cmath>
+#include <filesystem>
 
 using namespace Signoton;
 using PhysicalNumbers::value;
@@ -21,11 +22,12 @@ namespace
     options.scene_file =
       SIGNOTON_SOURCE_DIR "/tests/scenes/adaptive_granular.prm";
     options.output_directory = "results";
-    options.overrides        = {"Refinement/Cycles in first step=0",
-                                "Refinement/Cycles per step=0",
-                                "Geometry/Initial refinement=3",
-                                "Linear solver/Method=direct",
-                                "Newton/Tolerance=1e-12"};
+    std::filesystem::remove_all("results");
+    options.overrides = {"Refinement/Cycles in first step=0",
+                         "Refinement/Cycles per step=0",
+                         "Geometry/Initial refinement=3",
+                         "Linear solver/Method=direct",
+                         "Newton/Tolerance=1e-12"};
     options.overrides.insert(options.overrides.end(),
                              overrides.begin(),
                              overrides.end());

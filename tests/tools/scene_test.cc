@@ -7,6 +7,7 @@
 #include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
 
+#include <filesystem>
 #include <iostream>
 
 int
@@ -18,7 +19,10 @@ main(int argc, char **argv)
   Options    options;
   options.scene_file       = argv[1];
   options.output_directory = "results";
-  options.overrides        = std::vector<std::string>(argv + 2, argv + argc);
+  if (root)
+    std::filesystem::remove_all("results");
+  MPI_Barrier(MPI_COMM_WORLD);
+  options.overrides = std::vector<std::string>(argv + 2, argv + argc);
 
   std::ofstream output;
   if (root)

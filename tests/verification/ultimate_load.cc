@@ -8,6 +8,7 @@
 #include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
 
+#include <filesystem>
 #include <iostream>
 
 using namespace Signoton;
@@ -21,8 +22,9 @@ namespace
     Options options;
     options.scene_file       = SIGNOTON_SOURCE_DIR "/prm/" + scene + ".prm";
     options.output_directory = "results";
-    options.overrides        = {"Output/Fields every=0",
-                                "Materials/soil/Friction angle=" + friction_angle};
+    std::filesystem::remove_all("results");
+    options.overrides = {"Output/Fields every=0",
+                         "Materials/soil/Friction angle=" + friction_angle};
     std::vector<double> result;
     if (run_scene(MPI_COMM_WORLD, options) == ExitStatus::completed)
       for (const auto &line : PhysicalNumbers::read("results/statistics.csv"))

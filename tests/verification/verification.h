@@ -8,6 +8,7 @@
 
 #include <deal.II/base/convergence_table.h>
 
+#include <filesystem>
 #include <functional>
 #include <iostream>
 
@@ -97,7 +98,8 @@ namespace Verification
     Signoton::Options options;
     options.scene_file       = scene_file;
     options.output_directory = "results";
-    options.overrides        = overrides;
+    std::filesystem::remove_all("results");
+    options.overrides = overrides;
     const bool is_dynamic =
       Signoton::SceneFile::read(scene_file).value({}, "Analysis") == "dynamics";
     options.overrides.emplace_back(is_dynamic ? "Time integration/Snapshots=0" :

@@ -182,10 +182,16 @@ namespace Signoton
     }
 
     bool
+    is_look_due() const
+    {
+      return model.wave_refinement.is_on() &&
+             n_steps % model.wave_refinement.interval() == 0;
+    }
+
+    bool
     is_mesh_due() const
     {
-      return model.wave_refinement.is_on() && !is_finished() &&
-             n_steps % model.wave_refinement.interval() == 0;
+      return is_look_due() && !is_finished();
     }
 
     /** Add the loads of a kind at the present time. */
@@ -237,8 +243,14 @@ namespace Signoton
 
     void
     save();
-    void
+
+    /** Go back to a checkpoint; false if it has reached the end. */
+    bool
     resume(const std::string &directory);
+
+    /** A look at the mesh that was due at what has been the end before. */
+    void
+    make_up_for_mesh();
 
     /** Statistics, fields and screen, as often as each is due. */
     void
@@ -251,6 +263,8 @@ namespace Signoton
     double       unknown_steps = 0.; ///< unknowns of all steps together
     double       rest_energy   = 0.; ///< see energy_at_rest()
     double       largest_jump  = 0.; ///< see WaveRefinement::mark()
+    double       missed_look   = 0.; ///< 1: the mesh is as before the last step
+    bool         is_interrupted = false; ///< by a signal to any rank
     std::unique_ptr<PointSpace<dim>> history_space;
   };
 } // namespace Signoton

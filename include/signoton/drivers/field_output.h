@@ -2,6 +2,7 @@
 #define signoton_drivers_field_output_h
 
 #include <signoton/drivers/model.h>
+#include <signoton/drivers/output_directory.h>
 
 namespace Signoton
 {
@@ -15,7 +16,7 @@ namespace Signoton
   class FieldOutput
   {
   public:
-    explicit FieldOutput(Model<dim> &model);
+    FieldOutput(Model<dim> &model, OutputDirectory &directory);
 
     /** Write a snapshot and enter it in the list.
      *  @param velocity nullptr in statics */
@@ -42,8 +43,9 @@ namespace Signoton
     }
 
   private:
-    Model<dim> &model;
-    List        list;
+    Model<dim>      &model;
+    OutputDirectory &directory;
+    List             list;
   };
 } // namespace Signoton
 

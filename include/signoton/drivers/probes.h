@@ -1,7 +1,9 @@
 #ifndef signoton_drivers_probes_h
 #define signoton_drivers_probes_h
 
+#include <signoton/base/table.h>
 #include <signoton/drivers/checkpoint.h>
+#include <signoton/drivers/output_directory.h>
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>
 
@@ -20,7 +22,7 @@ namespace Signoton
     /** Names of columns with their values. */
     using Line = std::vector<std::pair<std::string, double>>;
 
-    explicit Probes(Model<dim> &model);
+    Probes(Model<dim> &model, OutputDirectory &directory);
 
     /** Add the columns of points and surfaces.
      *  @param displacement with hanging nodes set, as is
@@ -36,8 +38,9 @@ namespace Signoton
       return !model.probe_lines.empty();
     }
 
-    /** Append the present state to the files of the lines. */
-    void
+    /** Append the present state to the files of the lines.
+     *  @return see Table::append() */
+    std::string
     write_lines(const double      time,
                 const VectorType &displacement,
                 const VectorType *velocity);
@@ -46,6 +49,10 @@ namespace Signoton
      *  is not. */
     bool
     draw_lines() const;
+
+    /** A regular expression of the files of lines, to follow others. */
+    std::string
+    file_names() const;
 
     void
     save(Checkpoint<dim> &checkpoint) const;
@@ -95,10 +102,17 @@ namespace Signoton
     bool
     wants(const std::string &quantity) const;
 
-    std::string
-    file(const unsigned int line, const std::string &ending) const;
+    /** Where a line is, in numbers for a checkpoint. */
+    std::vector<std::pair<std::string, double>>
+    place(const unsigned int line) const;
+
+    /** The name of a file without its directory. */
+    static std::string
+    file(const unsigned int line, const std::string &ending);
 
     Model<dim>                          &model;
+    OutputDirectory                     &directory;
+    std::vector<Table>                   tables; ///< of lines
     bool                                 is_current = false;
     boost::signals2::scoped_connection   mesh_changes;
     std::unique_ptr<Search>              points;

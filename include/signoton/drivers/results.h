@@ -71,10 +71,29 @@ namespace Signoton
       return accepted_steps;
     }
 
+    /** See RunOutput. */
     std::string
-    checkpoint_directory() const
+    checkpoint_directory()
     {
       return output.checkpoint_directory();
+    }
+
+    void
+    lock()
+    {
+      output.lock();
+    }
+
+    ExitStatus
+    interrupt(const double time)
+    {
+      return output.interrupt(accepted_steps, time);
+    }
+
+    ExitStatus
+    nothing_left(const double time)
+    {
+      return output.nothing_left(time, "Load steps");
     }
 
   private:

@@ -1,12 +1,17 @@
 #ifndef signoton_drivers_run_output_h
 #define signoton_drivers_run_output_h
 
+#include <signoton/base/signals.h>
+#include <signoton/base/table.h>
 #include <signoton/drivers/checkpoint.h>
 #include <signoton/drivers/field_output.h>
+#include <signoton/drivers/output_directory.h>
 #include <signoton/drivers/probes.h>
 
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/numerics/vector_tools_common.h>
+
+#include <optional>
 
 namespace Signoton
 {
@@ -64,6 +69,17 @@ namespace Signoton
     void
     finish(const unsigned int n_steps);
 
+    /** The same for a run that a signal ends, and how to go on with it.
+     *  Collective. */
+    ExitStatus
+    interrupt(const unsigned int n_steps, const double time);
+
+    /** Say that the run that is to be resumed has reached its end, and how to
+     *  go on beyond it.
+     *  @param section of the scene that has the end */
+    ExitStatus
+    nothing_left(const double time, const std::string &section);
+
     /** Put what must survive a restart into a checkpoint, and back.
      *  @param n_lines of the statistics that are kept */
     void
@@ -71,8 +87,13 @@ namespace Signoton
     void
     resume(const Checkpoint<dim> &checkpoint, const unsigned int n_lines);
 
+    /** Keep other runs from the directory, before a checkpoint is read. */
+    void
+    lock();
+
+    /** Where a checkpoint is to be written. */
     std::string
-    checkpoint_directory() const;
+    checkpoint_directory();
 
     ConditionalOStream screen;
 
@@ -83,9 +104,13 @@ namespace Signoton
                     const Function<dim>        &reference,
                     const VectorTools::NormType norm);
 
+    std::optional<SignalWatch> watch; ///< from the first step on
+
     Model<dim>      &model;
     double           start_time = 0., end_time = 1.;
     bool             resumed = false;
+    OutputDirectory  directory;
+    Table            statistics;
     FieldOutput<dim> fields;
     Probes<dim>      probes;
   };
