@@ -379,7 +379,8 @@ namespace Signoton
     ConditionalOStream screen(std::cout,
                               Utilities::MPI::this_mpi_process(communicator) ==
                                 0);
-    screen << explanation();
+    const SignalWatch  watch;
+    screen << explanation() << std::flush;
     State state;
     state.tensors.resize(network->n_tensors(), Vector6{});
     state.scalars.resize(network->n_scalars(), 0.);
@@ -389,10 +390,9 @@ namespace Signoton
     const double jump = 1e-5 * (end_time - start_time);
     // the answer to what is given at the start, at once: dampers stand still
     state.time -= least;
-    unsigned int      n_steps = 0, n_cut = 0, most_iterations = 0;
-    double            dt         = step_size;
-    bool              has_failed = false, is_interrupted = false;
-    const SignalWatch watch;
+    unsigned int n_steps = 0, n_cut = 0, most_iterations = 0;
+    double       dt         = step_size;
+    bool         has_failed = false, is_interrupted = false;
     if (const auto first = step(state, least))
       state = *first;
     else

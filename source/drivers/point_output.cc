@@ -32,7 +32,7 @@ namespace Signoton
       std::max(stress_scale, std::sqrt(dot(state.stress, state.stress)));
     const Tensor2<> strain = from_mandel(state.strain),
                     stress = from_mandel(state.stress);
-    Table::Row row         = {state.time};
+    CSVTable::Row row      = {state.time};
     for (const Tensor2<> &tensor : {strain, stress})
       for (unsigned int c = 0; c < 6; ++c)
         row.push_back(tensor.access_raw_entry(c));
@@ -52,7 +52,7 @@ namespace Signoton
   bool
   PointDriver::write() const
   {
-    Table(communicator, results->path_of("point.csv")).append(columns, rows);
+    CSVTable(communicator, results->path_of("point.csv")).append(columns, rows);
     return plot();
   }
 

@@ -285,7 +285,7 @@ namespace Signoton
                            const VectorType *velocity)
   {
     update();
-    Table::Names names = {"time", "distance"};
+    CSVTable::Names names = {"time", "distance"};
     for (const char *quantity : {"displacement", "velocity"})
       if (quantity[0] == 'd' || velocity != nullptr)
         for (unsigned int d = 0; d < dim; ++d)
@@ -299,10 +299,10 @@ namespace Signoton
         const auto  &line   = model.probe_lines[l];
         const auto   at     = line.points();
         const Values values = evaluate(*lines[l], displacement, velocity, true);
-        std::vector<Table::Row> rows;
+        std::vector<CSVTable::Row> rows;
         for (unsigned int i = 0; i < at.size(); ++i)
           {
-            Table::Row row = {time, at[i].distance(line.from)};
+            CSVTable::Row row = {time, at[i].distance(line.from)};
             for (unsigned int d = 0; d < dim; ++d)
               row.push_back(values.displacement[i][d]);
             if (velocity != nullptr)

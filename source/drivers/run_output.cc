@@ -153,8 +153,8 @@ namespace Signoton
   void
   RunOutput<dim>::append(const Line &line)
   {
-    Table::Names names;
-    Table::Row   values;
+    CSVTable::Names names;
+    CSVTable::Row   values;
     for (const auto &[name, value] : line)
       {
         names.push_back(name);

@@ -112,6 +112,7 @@ interrupted implicit INT all "${implicit[@]}"
 same_end implicit 2
 
 # one material point: no checkpoint, but its table
+rm "$dir/log"
 "$signoton" --template point >"$dir/point.prm"
 "$signoton" point "$dir/point.prm" --set 'Time steps/Tolerance=0' \
   --set 'Time steps/Largest step=1e-6' --output "$dir/point" >"$dir/log" 2>&1 &

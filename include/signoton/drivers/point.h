@@ -1,7 +1,7 @@
 #ifndef signoton_drivers_point_h
 #define signoton_drivers_point_h
 
-#include <signoton/base/table.h>
+#include <signoton/base/csv_table.h>
 #include <signoton/drivers/output_directory.h>
 #include <signoton/drivers/program.h>
 #include <signoton/rheology/material.h>
@@ -111,7 +111,7 @@ namespace Signoton
     std::optional<Rheology::Material>  material;
     std::unique_ptr<Rheology::Network> network;
     double                             strain_scale = 0., stress_scale = 0.;
-    std::vector<Table::Row>            rows; ///< of the table
+    std::vector<CSVTable::Row>         rows; ///< of the table
     std::unique_ptr<OutputDirectory>   results;
   };
 } // namespace Signoton

@@ -1,7 +1,7 @@
 #ifndef signoton_drivers_probes_h
 #define signoton_drivers_probes_h
 
-#include <signoton/base/table.h>
+#include <signoton/base/csv_table.h>
 #include <signoton/drivers/checkpoint.h>
 #include <signoton/drivers/output_directory.h>
 
@@ -39,7 +39,7 @@ namespace Signoton
     }
 
     /** Append the present state to the files of the lines.
-     *  @return see Table::append() */
+     *  @return see CSVTable::append() */
     std::string
     write_lines(const double      time,
                 const VectorType &displacement,
@@ -112,7 +112,7 @@ namespace Signoton
 
     Model<dim>                          &model;
     OutputDirectory                     &directory;
-    std::vector<Table>                   tables; ///< of lines
+    std::vector<CSVTable>                tables; ///< of lines
     bool                                 is_current = false;
     boost::signals2::scoped_connection   mesh_changes;
     std::unique_ptr<Search>              points;

@@ -1,8 +1,8 @@
 #ifndef signoton_drivers_run_output_h
 #define signoton_drivers_run_output_h
 
+#include <signoton/base/csv_table.h>
 #include <signoton/base/signals.h>
-#include <signoton/base/table.h>
 #include <signoton/drivers/checkpoint.h>
 #include <signoton/drivers/field_output.h>
 #include <signoton/drivers/output_directory.h>
@@ -110,7 +110,7 @@ namespace Signoton
     double           start_time = 0., end_time = 1.;
     bool             resumed = false;
     OutputDirectory  directory;
-    Table            statistics;
+    CSVTable         statistics;
     FieldOutput<dim> fields;
     Probes<dim>      probes;
   };

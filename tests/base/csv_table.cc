@@ -3,9 +3,9 @@
 
 #include "verdicts.h"
 
+#include <signoton/base/csv_table.h>
 #include <signoton/base/exceptions.h>
 #include <signoton/base/mpi_session.h>
-#include <signoton/base/table.h>
 
 #include <sys/resource.h>
 
@@ -59,7 +59,7 @@ main(int argc, char **argv)
   std::filesystem::remove(file);
 
   {
-    Table table(MPI_COMM_WORLD, file);
+    CSVTable table(MPI_COMM_WORLD, file);
     table.append({"time", "a \"b\", c"}, {{0., 1. / 3.}});
     table.append({"time", "a \"b\", c"}, {{1e-3, -2e20}});
     table.append({"time", "a \"b\", c"}, {{2., 5.}});
@@ -68,7 +68,7 @@ main(int argc, char **argv)
           contents(file) == "\"time\",\"a \"\"b\"\", c\"\n0,0.333333333333\n"
                             "0.001,-2e+20\n2,5\n");
   {
-    Table table(MPI_COMM_WORLD, file);
+    CSVTable table(MPI_COMM_WORLD, file);
     table.resume(2, true);
     verdict("the same columns are gone on with without a word",
             table.append({"time", "a \"b\", c"}, {{3., 6.}}).empty());
@@ -77,7 +77,7 @@ main(int argc, char **argv)
           contents(file) == "\"time\",\"a \"\"b\"\", c\"\n0,0.333333333333\n"
                             "0.001,-2e+20\n3,6\n");
   {
-    Table table(MPI_COMM_WORLD, file);
+    CSVTable table(MPI_COMM_WORLD, file);
     table.resume(2, true);
     const std::string said =
       table.append({"new", "time", "other"}, {{7., 8., 9.}});
@@ -91,7 +91,7 @@ main(int argc, char **argv)
                             ",0,,0.333333333333\n,0.001,,-2e+20\n"
                             "7,8,9,\n17,18,19,\n");
   {
-    Table table(MPI_COMM_WORLD, file);
+    CSVTable table(MPI_COMM_WORLD, file);
     table.resume(4, true);
     table.append({"time", "a \"b\", c", "new", "other"}, {{1., 2., 3., 4.}});
   }
@@ -102,12 +102,12 @@ main(int argc, char **argv)
 
   std::filesystem::remove(file);
   {
-    Table table(MPI_COMM_WORLD, file);
+    CSVTable table(MPI_COMM_WORLD, file);
     for (unsigned int scan = 0; scan < 3; ++scan)
       table.append({"t", "x"}, {{scan * 1., 0.}, {scan * 1., 1.}}, true);
   }
   {
-    Table table(MPI_COMM_WORLD, file);
+    CSVTable table(MPI_COMM_WORLD, file);
     table.resume(1, false);
     table.append({"t", "x", "y"}, {{5., 0., 2.}, {5., 1., 3.}}, true);
   }
@@ -117,7 +117,7 @@ main(int argc, char **argv)
 
   const std::string before = contents(file);
   {
-    Table table(MPI_COMM_WORLD, file);
+    CSVTable table(MPI_COMM_WORLD, file);
     table.resume(2, false);
     verdict("no room to rewrite the table", fails_on_disk(10, [&] {
               table.append({"t", "z"}, {{1., 2.}});
@@ -126,7 +126,7 @@ main(int argc, char **argv)
   verdict("then it is as it was, and nothing is beside it",
           contents(file) == before && !std::filesystem::exists(file + ".part"));
   {
-    Table table(MPI_COMM_WORLD, file);
+    CSVTable table(MPI_COMM_WORLD, file);
     table.resume(2, false);
     table.append({"t", "x", "y"}, {{6., 0., 1.}});
     const std::string complete = contents(file);

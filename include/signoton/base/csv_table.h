@@ -1,5 +1,5 @@
-#ifndef signoton_base_table_h
-#define signoton_base_table_h
+#ifndef signoton_base_csv_table_h
+#define signoton_base_csv_table_h
 
 #include <signoton/base/output_file.h>
 
@@ -16,14 +16,14 @@ namespace Signoton
    * field is a number that was not asked for; a block of rows may end with an
    * empty line, which gnuplot takes for the end of a scan, and others skip.
    */
-  class Table
+  class CSVTable
   {
   public:
     using Names = std::vector<std::string>;
     using Row   = std::vector<double>;
 
     /** @param file_name of which nothing is touched until append() */
-    Table(const MPI_Comm &communicator, const std::string &file_name);
+    CSVTable(const MPI_Comm &communicator, const std::string &file_name);
 
     /** Go on with what the file has.
      *  @param n_blocks that are kept; the rest is dropped when the next row

@@ -1,4 +1,4 @@
-#include <signoton/base/table.h>
+#include <signoton/base/csv_table.h>
 
 #include <algorithm>
 #include <fstream>
@@ -6,13 +6,13 @@
 
 namespace Signoton
 {
-  Table::Table(const MPI_Comm &communicator, const std::string &file_name)
+  CSVTable::CSVTable(const MPI_Comm &communicator, const std::string &file_name)
     : communicator(communicator)
     , file_name(file_name)
   {}
 
   std::string
-  Table::header(const Names &names)
+  CSVTable::header(const Names &names)
   {
     std::string text;
     for (const std::string &name : names)
@@ -26,7 +26,7 @@ namespace Signoton
   }
 
   std::string
-  Table::line(const Row &row)
+  CSVTable::line(const Row &row)
   {
     std::ostringstream text;
     text.precision(12);
@@ -36,8 +36,8 @@ namespace Signoton
     return text.str();
   }
 
-  Table::Fields
-  Table::split(const std::string &line)
+  CSVTable::Fields
+  CSVTable::split(const std::string &line)
   {
     Fields fields;
     bool   quoted = false;
@@ -59,7 +59,7 @@ namespace Signoton
   }
 
   void
-  Table::resume(const std::size_t n_blocks, const bool by_lines)
+  CSVTable::resume(const std::size_t n_blocks, const bool by_lines)
   {
     old_names.clear();
     old_rows.clear();
@@ -77,7 +77,7 @@ namespace Signoton
   }
 
   std::string
-  Table::rearrange(const Names &names)
+  CSVTable::rearrange(const Names &names)
   {
     Names                    all(names), added, gone;
     std::vector<std::size_t> place;
@@ -121,9 +121,9 @@ namespace Signoton
   }
 
   std::string
-  Table::append(const Names            &names,
-                const std::vector<Row> &rows,
-                const bool              ends_block)
+  CSVTable::append(const Names            &names,
+                   const std::vector<Row> &rows,
+                   const bool              ends_block)
   {
     std::string text, change;
     const bool  begins = !has_begun;
