@@ -1,5 +1,6 @@
-#include <signoton/base/scene_function.h>
+#include <signoton/base/function.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <sstream>
 
 namespace Signoton
 {
@@ -132,44 +134,186 @@ namespace Signoton
   }
 
   template <int dim>
-  std::unique_ptr<FunctionParser<dim>>
-  make_function(const std::vector<std::string> &expressions,
-                const Constants                &constants,
-                const std::string              &where)
+  SpaceTimeFunction<dim>::SpaceTimeFunction(
+    const std::vector<std::string> &texts,
+    const Constants                &constants,
+    const std::string              &where)
+    : Function<dim>(texts.size())
+    , where(where)
+    , constants(constants)
   {
     // in one dimension: of time alone, x is not to be used
     const std::string variables = dim == 1 ? "x,t" :
                                   dim == 2 ? "x,y,t" :
                                              "x,y,z,t";
-    for (const std::string &expression : expressions)
+    for (const std::string &text : texts)
       {
-        const std::string error =
-          error_in(expression, dim == 1 ? 0 : dim, constants);
+        components.emplace_back();
+        components.back().text = text;
+        if (TimeTable::is_table(text))
+          {
+            components.back().table =
+              std::make_unique<TimeTable>(text, constants, where);
+            continue;
+          }
+        const std::string error = error_in(text, dim == 1 ? 0 : dim, constants);
         if (!error.empty())
           throw UserError(where,
-                          "'" + expression + "' (" + error + ")",
+                          "'" + text + "' (" + error + ")",
                           "an expression in " + (dim == 1 ? "t" : variables) +
                             " and the " +
                             (dim == 1 ? "Constants" :
                                         "constants of 'Loads / Constants'"),
                           "see the function parser of deal.II and muparser");
+        components.back().expression = std::make_unique<FunctionParser<dim>>(1);
+        components.back().expression->initialize(variables,
+                                                 text,
+                                                 constants,
+                                                 true);
       }
-    auto function =
-      std::make_unique<SceneFunction<dim>>(expressions.size(), where);
-    function->initialize(variables, expressions, constants, true);
-    return function;
   }
 
-  template std::unique_ptr<FunctionParser<1>>
-  make_function<1>(const std::vector<std::string> &,
-                   const Constants &,
-                   const std::string &);
-  template std::unique_ptr<FunctionParser<2>>
-  make_function<2>(const std::vector<std::string> &,
-                   const Constants &,
-                   const std::string &);
-  template std::unique_ptr<FunctionParser<3>>
-  make_function<3>(const std::vector<std::string> &,
-                   const Constants &,
-                   const std::string &);
+  template <int dim>
+  double
+  SpaceTimeFunction<dim>::value(const Point<dim>  &p,
+                                const unsigned int component) const
+  {
+    const Component &c = components[component];
+    const double     value =
+      c.table ? (*c.table)(this->get_time()) : c.expression->value(p);
+    if (!std::isfinite(value) && found.empty())
+      {
+        std::ostringstream text;
+        text << value << " at t = " << this->get_time() << " in the point "
+             << p;
+        found = text.str();
+      }
+    return value;
+  }
+
+  template <int dim>
+  void
+  SpaceTimeFunction<dim>::set_time(const double time)
+  {
+    Function<dim>::set_time(time);
+    for (auto &component : components)
+      if (component.expression)
+        component.expression->set_time(time);
+  }
+
+  template <int dim>
+  bool
+  SpaceTimeFunction<dim>::varies() const
+  {
+    return std::any_of(components.begin(),
+                       components.end(),
+                       [](const Component &c) {
+                         return c.table || depends_on_time(c.text);
+                       });
+  }
+
+  template <int dim>
+  std::optional<double>
+  SpaceTimeFunction<dim>::end_of_tables() const
+  {
+    std::optional<double> end;
+    for (const Component &c : components)
+      if (c.table && !(end && *end > c.table->times().back()))
+        end = c.table->times().back();
+    return end;
+  }
+
+  template <int dim>
+  std::vector<Kink>
+  SpaceTimeFunction<dim>::kinks(const double                   start,
+                                const double                   end,
+                                const std::vector<Point<dim>> &places)
+  {
+    std::vector<Kink> result;
+    for (unsigned int c = 0; c < components.size(); ++c)
+      {
+        if (components[c].table)
+          {
+            for (const double time : components[c].table->times())
+              result.push_back({time, time});
+            continue;
+          }
+        auto found = find_kinks(components[c].text, constants, start, end);
+        if (found.empty())
+          continue;
+        const auto at = [&](const double time) {
+          set_time(time);
+          std::vector<double> values;
+          for (const Point<dim> &place : places)
+            values.push_back(value(place, c));
+          return values;
+        };
+        // a jump is more than steepness over the round-off of the time
+        constexpr unsigned int n_samples = 100;
+        double                 scale     = 0.;
+        const auto             measure   = [&](const double time) {
+          for (const double v : at(time))
+            if (std::isfinite(v))
+              scale = std::max(scale, std::abs(v));
+        };
+        for (unsigned int i = 0; i <= n_samples; ++i)
+          measure(start + (end - start) * i / n_samples);
+        for (const Kink &kink : found)
+          for (const double time : {kink.before, kink.after})
+            measure(time);
+        for (Kink &kink : found)
+          {
+            const auto before = at(kink.before), after = at(kink.after);
+            for (std::size_t i = 0; i < places.size(); ++i)
+              kink.jumps |= std::abs(after[i] - before[i]) > 1e-9 * scale;
+          }
+        result.insert(result.end(), found.begin(), found.end());
+      }
+    return result;
+  }
+
+  template <int dim>
+  std::unique_ptr<SpaceTimeFunction<dim>>
+  make_function(const std::vector<std::string> &components,
+                const Constants                &constants,
+                const std::string              &where)
+  {
+    return std::make_unique<SpaceTimeFunction<dim>>(components,
+                                                    constants,
+                                                    where);
+  }
+
+  template <int dim>
+  void
+  refuse_trouble(const MPI_Comm                           &communicator,
+                 const std::vector<const Function<dim> *> &functions)
+  {
+    std::string trouble; // where and what, in two lines
+    for (const auto *function : functions)
+      if (const auto *scene =
+            dynamic_cast<const SpaceTimeFunction<dim> *>(function);
+          scene != nullptr && !scene->trouble().empty() && trouble.empty())
+        trouble = scene->where + '\n' + scene->trouble();
+    for (const auto &rank : Utilities::MPI::all_gather(communicator, trouble))
+      if (const auto end = rank.find('\n'); end != std::string::npos)
+        throw UserError(rank.substr(0, end),
+                        rank.substr(end + 1),
+                        "an expression that is finite at all points and times "
+                        "that it is asked for",
+                        "look for divisions by zero, roots and logarithms of "
+                        "negative numbers; what was written before is "
+                        "complete");
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template class SpaceTimeFunction<dim>;                                       \
+  template std::unique_ptr<SpaceTimeFunction<dim>> make_function<dim>(         \
+    const std::vector<std::string> &, const Constants &, const std::string &); \
+  template void refuse_trouble<dim>(                                           \
+    const MPI_Comm &, const std::vector<const Function<dim> *> &);
+
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Signoton

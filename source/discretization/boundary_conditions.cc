@@ -64,13 +64,16 @@ namespace Signoton
       handler.add_parameter(std::string("Displacement ") + axis_names[d],
                             displacement_text[d],
                             "Prescribed component of the displacement in m, an "
-                            "expression in x, y, (z,) t; empty: free. Where "
-                            "boundaries meet, the first in the file holds.");
+                            "expression in x, y, (z,) t, or a table 'time: "
+                            "value, time: value' with straight lines in "
+                            "between; empty: free. Where boundaries meet, the "
+                            "first in the file holds.");
     for (unsigned int d = 0; d < dim; ++d)
-      handler.add_parameter(std::string("Velocity ") + axis_names[d],
-                            velocity_text[d],
-                            "Prescribed component of the velocity in m/s, an "
-                            "expression; for dynamics. Empty: free.");
+      handler.add_parameter(
+        std::string("Velocity ") + axis_names[d],
+        velocity_text[d],
+        "Prescribed component of the velocity in m/s, an "
+        "expression or a table; for dynamics. Empty: free.");
     handler.add_parameter("Absorbing",
                           absorbing,
                           "Dashpots that let waves leave (Lysmer and "
@@ -78,14 +81,16 @@ namespace Signoton
                           "v_t, with the speeds of the closed medium or of the "
                           "loosened one; for dynamics.",
                           Patterns::Selection("no|closed|loosened"));
-    handler.add_parameter("Traction",
-                          traction_text,
-                          "Force per area in Pa, one expression per direction "
-                          "separated by ';'.");
+    handler.add_parameter(
+      "Traction",
+      traction_text,
+      "Force per area in Pa, one expression or table 'time: "
+      "value, ...' per direction, separated by ';'.");
     handler.add_parameter("Pressure",
                           pressure_text,
                           "Pressure against the boundary in Pa, an "
-                          "expression; its direction stays that of the "
+                          "expression or a table 'time: value, ...'; its "
+                          "direction stays that of the "
                           "undeformed body.");
   }
 
@@ -224,7 +229,7 @@ namespace Signoton
   bool
   BoundaryCondition<dim>::varies() const
   {
-    return depends_on_time(traction_text) || depends_on_time(pressure_text);
+    return (traction && traction->varies()) || (pressure && pressure->varies());
   }
 
   template <int dim>

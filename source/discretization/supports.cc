@@ -115,7 +115,7 @@ namespace Signoton
                   {
                     const unsigned int d =
                       space.fe.system_to_component_index(i).first;
-                    FunctionParser<dim> *function =
+                    SpaceTimeFunction<dim> *function =
                       condition.velocity[d] ? condition.velocity[d].get() :
                                               condition.displacement[d].get();
                     if (function == nullptr ||

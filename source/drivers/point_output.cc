@@ -1,5 +1,6 @@
 #include <signoton/base/gnuplot.h>
 #include <signoton/base/output_file.h>
+#include <signoton/base/scene_template.h>
 #include <signoton/drivers/point.h>
 
 #include <deal.II/base/utilities.h>
@@ -26,11 +27,11 @@ namespace Signoton
   void
   PointDriver::record(const State &state)
   {
-    strain_scale =
-      std::max(strain_scale, std::sqrt(dot(state.strain, state.strain)));
+    const Vector6 counted = add_scaled(state.strain, -1., origin);
+    strain_scale = std::max(strain_scale, std::sqrt(dot(counted, counted)));
     stress_scale =
       std::max(stress_scale, std::sqrt(dot(state.stress, state.stress)));
-    const Tensor2<> strain = from_mandel(state.strain),
+    const Tensor2<> strain = from_mandel(counted),
                     stress = from_mandel(state.stress);
     CSVTable::Row row      = {state.time};
     for (const Tensor2<> &tensor : {strain, stress})
@@ -96,5 +97,22 @@ namespace Signoton
                    "'gnuplot point.gp' in the directory of the results does "
                    "it.\n";
     return drawn;
+  }
+
+  void
+  PointDriver::print_template(std::ostream &out)
+  {
+    SceneFile file;
+    file.set({"Materials", "sand"}, "Rheology", "elastic plastic granular");
+    file.set({"Materials", "sand"}, "Friction parameter", "0.5");
+    file.set({"Materials", "sand"}, "Shear strength", "1e5");
+    file.set({"Materials", "sand"}, "Bulk modulus", "1e8");
+    file.set({"Materials", "sand"}, "Shear modulus", "6e7");
+    file.set({"Program"}, "Kind", "triaxial");
+    file.set({"Program"}, "Strain", "0: 0, 1: -5e-3, 2: -3e-3");
+    file.set({"Program"}, "Confining pressure", "1e5");
+    file.set({"Program"}, "End time", "2");
+    PointDriver driver(MPI_COMM_SELF, file);
+    Signoton::print_template(out, driver.handler, file);
   }
 } // namespace Signoton

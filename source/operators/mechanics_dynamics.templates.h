@@ -1,7 +1,7 @@
 #ifndef signoton_operators_mechanics_dynamics_templates_h
 #define signoton_operators_mechanics_dynamics_templates_h
 
-#include <signoton/base/scene_function.h>
+#include <signoton/base/function.h>
 
 #include "mechanics_kernel.h"
 

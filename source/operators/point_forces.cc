@@ -40,12 +40,14 @@ namespace Signoton
     handler.add_parameter("Point",
                           place_text,
                           "Where it acts: coordinates separated by ','.");
-    handler.add_parameter("Force",
-                          force_text,
-                          "In N, per metre in plane strain, on the whole "
-                          "circle in axisymmetry: one expression per direction "
-                          "separated by ';'. On a plane of symmetry, the half "
-                          "that belongs to the modeled side.");
+    handler.add_parameter(
+      "Force",
+      force_text,
+      "In N, per metre in plane strain, on the whole "
+      "circle in axisymmetry: one expression or table 'time: "
+      "value, ...' per direction, separated by ';'. On a plane of symmetry, "
+      "the half "
+      "that belongs to the modeled side.");
   }
 
   template <int dim>
@@ -58,7 +60,7 @@ namespace Signoton
     force  = make_function<dim>(split_components(force_text, dim, where),
                                constants,
                                where);
-    varies = depends_on_time(force_text);
+    varies = force->varies();
   }
 
   template <int dim>

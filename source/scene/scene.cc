@@ -179,7 +179,8 @@ namespace Signoton
     prm.add_parameter("Gravity",
                       gravity_text,
                       "Acceleration in m/s^2 on all materials with a density, "
-                      "one expression per direction separated by ';'.");
+                      "one expression or table 'time: value, ...' per "
+                      "direction, separated by ';'.");
     prm.leave_subsection();
 
     prm.enter_subsection("Initial state");
@@ -270,7 +271,7 @@ namespace Signoton
       model.reference_velocity =
         vector_function(reference_velocity_text,
                         file.where({"Reference solution"}, "Velocity"));
-    model.gravity_varies = depends_on_time(gravity_text);
+    model.gravity_varies = model.gravity && model.gravity->varies();
     if (const std::string weightless = check_weight(model, gravity_text);
         !weightless.empty())
       warnings.push_back(weightless);
@@ -381,8 +382,7 @@ namespace Signoton
     model.mechanics = make_mechanics(space, model.materials);
 
     const auto timer = model.ledger.time("setup");
-    model.set_time(model.is_dynamic ? model.time_integration.start :
-                                      model.load_steps.start);
+    model.set_time(model.start_time());
     space.distribute_dofs();
     space.update_constraints(model.conditions);
     model.mechanics->set_initial_state({model.initial_strain.get(),

@@ -6,6 +6,7 @@
 #include <signoton/base/mpi_session.h>
 #include <signoton/scene/scene.h>
 
+#include <filesystem>
 #include <iostream>
 
 using namespace Signoton;
@@ -54,6 +55,7 @@ int
 main(int argc, char **argv)
 {
   MPISession mpi(argc, argv);
+  std::filesystem::remove_all("results");
 
   const std::string statics = "tests/scenes/adaptive_plastic.prm",
                     waves   = "tests/scenes/loosened_pulse.prm",

@@ -69,10 +69,10 @@ namespace Signoton
 
     bool symmetry = false;
     /** One expression per prescribed component. */
-    std::array<std::unique_ptr<FunctionParser<dim>>, dim> displacement;
-    std::array<std::unique_ptr<FunctionParser<dim>>, dim> velocity;
-    std::unique_ptr<FunctionParser<dim>>                  traction;
-    std::unique_ptr<FunctionParser<dim>>                  pressure;
+    std::array<std::unique_ptr<SpaceTimeFunction<dim>>, dim> displacement;
+    std::array<std::unique_ptr<SpaceTimeFunction<dim>>, dim> velocity;
+    std::unique_ptr<SpaceTimeFunction<dim>>                  traction;
+    std::unique_ptr<SpaceTimeFunction<dim>>                  pressure;
 
   private:
     std::array<std::string, dim> displacement_text;

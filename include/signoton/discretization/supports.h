@@ -67,10 +67,10 @@ namespace Signoton
     /** A component with a prescribed displacement or velocity. */
     struct Motion
     {
-      unsigned int         index;
-      Point<dim>           point;
-      FunctionParser<dim> *function;
-      bool                 is_velocity;
+      unsigned int            index;
+      Point<dim>              point;
+      SpaceTimeFunction<dim> *function;
+      bool                    is_velocity;
     };
 
     std::vector<Node>   supported;

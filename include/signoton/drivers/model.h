@@ -4,6 +4,7 @@
 #include <signoton/base/ledger.h>
 #include <signoton/discretization/refinement.h>
 #include <signoton/discretization/wave_refinement.h>
+#include <signoton/drivers/load_watch.h>
 #include <signoton/operators/mechanics.h>
 #include <signoton/operators/point_forces.h>
 #include <signoton/solvers/newton.h>
@@ -43,6 +44,7 @@ namespace Signoton
     double       step_size         = 1.;
     double       minimum_step_size = 0.;
     double       maximum_step_size = 1e300;
+    std::string  times             = ""; ///< that steps meet
     unsigned int easy_iterations   = 8;
     double       growth            = 1.;
   };
@@ -80,6 +82,7 @@ namespace Signoton
     double         safety           = 0.9;
     ShockViscosity shock_viscosity  = {0.5, 1.2};
     bool           quiet_zones      = true;
+    std::string    times            = ""; ///< that steps meet
     unsigned int   statistics_every = 1;
     unsigned int   snapshots        = 20;
   };
@@ -112,36 +115,50 @@ namespace Signoton
       , ledger(communicator)
     {}
 
-    MPI_Comm                             communicator;
-    SceneFile                            file;
-    Ledger                               ledger;
-    Geometry                             geometry;
-    std::vector<Rheology::Material>      materials;
-    BoundaryConditions<dim>              conditions;
-    std::vector<PointForce<dim>>         point_forces;
-    std::unique_ptr<FunctionParser<dim>> gravity;
+    MPI_Comm                                communicator;
+    SceneFile                               file;
+    Ledger                                  ledger;
+    Geometry                                geometry;
+    std::vector<Rheology::Material>         materials;
+    BoundaryConditions<dim>                 conditions;
+    std::vector<PointForce<dim>>            point_forces;
+    std::unique_ptr<SpaceTimeFunction<dim>> gravity;
     /** An exact displacement to compare with, if the scene gives one. */
-    std::unique_ptr<FunctionParser<dim>> reference;
+    std::unique_ptr<SpaceTimeFunction<dim>> reference;
     /** The same for the velocity, in dynamics. */
-    std::unique_ptr<FunctionParser<dim>> reference_velocity;
-    std::vector<Point<dim>>              probes;
-    std::vector<ProbeLine<dim>>          probe_lines;
+    std::unique_ptr<SpaceTimeFunction<dim>> reference_velocity;
+    std::vector<Point<dim>>                 probes;
+    std::vector<ProbeLine<dim>>             probe_lines;
     /** Names and ids of boundaries. */
     std::vector<std::pair<std::string, types::boundary_id>> probe_surfaces;
     /** The state before anything moves, if the scene gives one; strains and
      *  stresses in the components that the embedding has. */
-    std::unique_ptr<FunctionParser<dim>> initial_strain, initial_stress;
-    std::unique_ptr<FunctionParser<dim>> initial_velocity;
-    bool                                 is_dynamic     = false;
-    bool                                 gravity_varies = false; ///< in time
-    LoadSteps                            load_steps;
-    TimeIntegration                      time_integration;
-    Newton::Parameters                   newton;
-    LinearSolver::Parameters             linear_solver;
-    Refinement                           refinement;
-    WaveRefinement                       wave_refinement;
-    OutputParameters                     output;
-    std::string                          resolved_scene;
+    std::unique_ptr<SpaceTimeFunction<dim>> initial_strain, initial_stress;
+    std::unique_ptr<SpaceTimeFunction<dim>> initial_velocity;
+    bool                                    is_dynamic     = false;
+    bool                                    gravity_varies = false; ///< in time
+    LoadSteps                               load_steps;
+    TimeIntegration                         time_integration;
+    TimesToMeet                             times_to_meet;
+    LoadWatch<dim>                          load_watch;
+    Newton::Parameters                      newton;
+    LinearSolver::Parameters                linear_solver;
+    Refinement                              refinement;
+    WaveRefinement                          wave_refinement;
+    OutputParameters                        output;
+    std::string                             resolved_scene;
+
+    double
+    start_time() const
+    {
+      return is_dynamic ? time_integration.start : load_steps.start;
+    }
+
+    double
+    end_time() const
+    {
+      return is_dynamic ? time_integration.end : load_steps.end;
+    }
 
     std::unique_ptr<Space<dim>>     space;
     std::unique_ptr<Mechanics<dim>> mechanics;

@@ -2,10 +2,9 @@
 #define signoton_drivers_point_h
 
 #include <signoton/base/csv_table.h>
+#include <signoton/base/time_function.h>
 #include <signoton/drivers/output_directory.h>
-#include <signoton/drivers/program.h>
-#include <signoton/rheology/material.h>
-#include <signoton/rheology/network.h>
+#include <signoton/drivers/point_law.h>
 
 #include <array>
 #include <iosfwd>
@@ -44,33 +43,36 @@ namespace Signoton
     /** What is given for one component, in Mandel's order. */
     struct Component
     {
-      std::string            strain_text, stress_text;
-      std::optional<Program> program;
-      bool                   is_stress = false;
-      double                 factor    = 1.; ///< to Mandel's component
+      std::string                 strain_text, stress_text;
+      std::optional<TimeFunction> program;
+      bool                        is_stress = false;
+      double                      factor    = 1.; ///< to Mandel's component
     };
 
-    struct State
-    {
-      double               time = 0.;
-      std::vector<Vector6> tensors;
-      std::vector<double>  scalars;
-      Vector6              strain{}, stress{};
-      double               stored = 0., dissipated = 0., work = 0.;
-      unsigned int         iterations = 0, region = 0;
-    };
+    using State = PointLaw::State;
 
     void
     add_parameters();
     void
     interpret();
+    /** The end, and the times that steps have to meet. */
+    void
+    interpret_times();
     void
     give(const unsigned int component,
          const std::string &text,
          const bool         is_stress,
          const std::string &where);
 
-    /** One step from @p from; nothing if the local solver failed. */
+    std::array<bool, 6>
+    stress_is_given() const;
+
+    /** What is given at the start, at once; the isotropic state of a triaxial
+     *  test. Nothing if there is none. */
+    std::optional<State>
+    start();
+
+    /** One step from @p from; nothing if none was found. */
     std::optional<State>
     step(const State &from, const double time_step);
 
@@ -95,24 +97,25 @@ namespace Signoton
     /** Of the table, in the order of record(). */
     static const std::vector<std::string> columns;
 
-    MPI_Comm                           communicator;
-    SceneFile                          file;
-    ParameterHandler                   handler;
-    std::string                        title, kind = "oedometer";
-    std::string                        strain_text, stress_text, constants_text;
-    double                             confining_pressure = 0.;
-    std::array<Component, 6>           components;
-    double                             start_time = 0., end_time = 1.;
-    double                             step_size = 0., tolerance = 1e-5;
-    std::string                        turning_text;
-    std::vector<double>                turning_points;
-    bool                               by_strain = true; ///< no stress is given
-    std::string                        horizontal, vertical;
-    std::optional<Rheology::Material>  material;
-    std::unique_ptr<Rheology::Network> network;
-    double                             strain_scale = 0., stress_scale = 0.;
-    std::vector<CSVTable::Row>         rows; ///< of the table
-    std::unique_ptr<OutputDirectory>   results;
+    MPI_Comm                          communicator;
+    SceneFile                         file;
+    ParameterHandler                  handler;
+    std::string                       title, kind = "oedometer";
+    std::string                       strain_text, stress_text, constants_text;
+    double                            confining_pressure = 0.;
+    std::array<Component, 6>          components;
+    double                            start_time = 0., end_time = 1.;
+    double                            step_size = 0., tolerance = 1e-5;
+    std::string                       turning_text;
+    TimesToMeet                       times_to_meet;
+    bool                              by_strain = true; ///< no stress is given
+    std::string                       horizontal, vertical;
+    std::optional<Rheology::Material> material;
+    std::unique_ptr<PointLaw>         law;
+    Vector6                           origin{}; ///< strain that counts as zero
+    double                            strain_scale = 0., stress_scale = 0.;
+    std::vector<CSVTable::Row>        rows; ///< of the table
+    std::unique_ptr<OutputDirectory>  results;
   };
 } // namespace Signoton
 

@@ -23,10 +23,10 @@ namespace Signoton
     void
     initialize(const SceneFile &file, const Constants &constants);
 
-    std::string                          name;
-    Point<dim>                           place;
-    std::unique_ptr<FunctionParser<dim>> force;          ///< in N
-    bool                                 varies = false; ///< in time
+    std::string                             name;
+    Point<dim>                              place;
+    std::unique_ptr<SpaceTimeFunction<dim>> force;          ///< in N
+    bool                                    varies = false; ///< in time
 
   private:
     std::string place_text, force_text;
