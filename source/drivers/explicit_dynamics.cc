@@ -59,7 +59,8 @@ namespace Signoton
       parameters.time_step > 0. ? parameters.time_step :
       usual <= stable_step      ? usual :
                                   parameters.safety * stable_step;
-    const double left = parameters.end - time;
+    next_to_meet      = model.times_to_meet.next(time);
+    const double left = next_to_meet - time;
     steps_left =
       std::max(1U, static_cast<unsigned int>(std::ceil(left / wanted - 1e-9)));
     time_step = left / steps_left;
@@ -145,6 +146,10 @@ namespace Signoton
   void
   ExplicitDynamics<dim>::step()
   {
+    if (steps_left == 0)
+      choose_step();
+    if (this->pass_jump())
+      this->accelerate(0.);
     std::pair<double, double> before;
     {
       const auto timer = model.ledger.time("time integration");
@@ -152,7 +157,7 @@ namespace Signoton
     }
     --steps_left;
     ++n_steps;
-    time = model.time_integration.end - steps_left * time_step;
+    time = next_to_meet - steps_left * time_step;
     this->evaluate_loads();
     DynamicSums own;
     {

@@ -341,6 +341,7 @@ namespace Signoton
     check_boundaries();
     check_mesh();
     check_probes();
+    find_times_to_meet();
     model.mechanics = make_mechanics(space, model.materials);
 
     const auto timer = model.ledger.time("setup");
