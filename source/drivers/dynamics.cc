@@ -122,6 +122,18 @@ namespace Signoton
   }
 
   template <int dim>
+  bool
+  Dynamics<dim>::pass_jump()
+  {
+    const double behind = model.times_to_meet.behind_jump(time);
+    if (!(behind > time))
+      return false;
+    time = behind;
+    evaluate_loads();
+    return true;
+  }
+
+  template <int dim>
   double
   Dynamics<dim>::kinetic_energy() const
   {

@@ -61,17 +61,21 @@ namespace Signoton
       parameters.time_step > 0. ? parameters.time_step :
       usual <= stable_step      ? usual :
                                   parameters.safety * stable_step;
-    const double left = parameters.end - time;
+    const double all = (parameters.end - time) / wanted;
     check_steps(model.file.where({"Time integration"},
                                  parameters.time_step > 0. ? "Time step" :
                                                              "End time"),
                 wanted,
                 parameters.start,
                 parameters.end,
-                left / wanted,
-                left / wanted / parameters.statistics_every,
-                "end earlier, let the mesh be coarser, or take 'Scheme = "
-                "implicit'");
+                all,
+                all / parameters.statistics_every,
+                std::string("end earlier, ") +
+                  (parameters.time_step > 0. ? "take longer steps" :
+                                               "let the mesh be coarser") +
+                  ", or take 'Scheme = implicit'");
+    next_to_meet      = model.times_to_meet.next(time);
+    const double left = next_to_meet - time;
     steps_left =
       std::max(1U, static_cast<unsigned int>(std::ceil(left / wanted - 1e-9)));
     time_step = left / steps_left;
@@ -157,6 +161,10 @@ namespace Signoton
   void
   ExplicitDynamics<dim>::step()
   {
+    if (steps_left == 0)
+      choose_step();
+    if (this->pass_jump())
+      this->accelerate(0.);
     std::pair<double, double> before;
     {
       const auto timer = model.ledger.time("time integration");
@@ -164,7 +172,7 @@ namespace Signoton
     }
     --steps_left;
     ++n_steps;
-    time = model.time_integration.end - steps_left * time_step;
+    time = next_to_meet - steps_left * time_step;
     this->evaluate_loads();
     DynamicSums own;
     {

@@ -186,22 +186,82 @@ namespace Signoton
 
   template <int dim>
   void
+  ImplicitDynamics<dim>::restart_at_jump()
+  {
+    if (!(model.times_to_meet.behind_jump(time) > time))
+      return;
+    const VectorType before(external);
+    this->pass_jump();
+    VectorType change(acceleration);
+    for (unsigned int i = 0; i < change.locally_owned_size(); ++i)
+      change.local_element(i) =
+        this->inverse_mass.local_element(i) *
+        (external.local_element(i) - before.local_element(i));
+    supports.project(change);
+    acceleration += change;
+    if (is_automatic)
+      next_step = std::min(next_step, stable_step);
+  }
+
+  template <int dim>
+  double
+  ImplicitDynamics<dim>::end_of_step(const double start)
+  {
+    // what loads may depart from straight lines within a step
+    constexpr double most     = 0.02;
+    const double     shortest = shortest_step();
+    const double     met = model.times_to_meet.next(start), left = met - start;
+    double           size = next_step;
+    while (true)
+      {
+        // Whole steps to the next of these times if their size is given, else
+        // the last two are alike: a sliver would be left with the round-off of
+        // its inertia.
+        const double n    = std::max(1., std::ceil(left / size - 1e-3));
+        const double step = !is_automatic || n < 2.5 ? left / n : size;
+        const double end  = n < 1.5 ? met : start + step;
+        const double bend = model.load_watch.bend(start, end);
+        if (!(bend > most))
+          return end;
+        if (!is_automatic || end - start < 1.01 * shortest)
+          {
+            warn_of_loads(start, bend);
+            return end;
+          }
+        size = std::max(shortest, 0.5 * (end - start));
+      }
+  }
+
+  template <int dim>
+  void
+  ImplicitDynamics<dim>::warn_of_loads(const double start, const double bend)
+  {
+    if (!has_warned)
+      this->output.screen << "  warning: loads vary by "
+                          << short_number(100. * bend)
+                          << " % within the step from t = "
+                          << short_number(start)
+                          << (is_automatic ?
+                                ", much faster than waves cross a cell\n" :
+                                ": a smaller 'Time step', or 0 for automatic "
+                                "ones, sees them\n");
+    has_warned = true;
+  }
+
+  template <int dim>
+  void
   ImplicitDynamics<dim>::step()
   {
     const TimeIntegration &parameters = model.time_integration;
-    const double           start      = time;
-    old_external                      = external;
+    restart_at_jump();
+    const double start = time;
+    old_external       = external;
     Motion trial;
     while (true)
       {
-        // Whole steps to the end if their size is given, else the last two are
-        // alike: a sliver would be left with the round-off of its inertia.
-        const double left = parameters.end - start,
-                     n    = std::max(1., std::ceil(left / next_step - 1e-3));
-        time_step         = !is_automatic || n < 2.5 ? left / n : next_step;
-        // an end that moves later finds the step as it was to be
-        const double uncut = time_step < next_step ? next_step : 0.;
-        time               = start + time_step;
+        const double wanted = next_step;
+        time                = end_of_step(start);
+        time_step           = time - start;
         model.set_time(time);
         const NewtonResult result = solve(trial);
         if (!result.converged)
@@ -246,12 +306,13 @@ namespace Signoton
           }
         next_step =
           std::min(parameters.longest_step(),
-                   std::max(
-                     {std::min(stable_step, 2. * time_step), bounded, uncut}));
+                   std::max(std::min(stable_step, 2. * time_step), bounded));
+        // that it had to end early does not make the others shorter
+        if (next_step < wanted && time_step < 0.999 * wanted &&
+            error < parameters.error_tolerance)
+          next_step = wanted;
         break;
       }
-    if (!(time < parameters.end))
-      time = parameters.end;
     ++n_steps;
     accept(trial);
   }

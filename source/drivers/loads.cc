@@ -41,6 +41,16 @@ namespace Signoton
     point_forces.add(kind, constraints, force);
   }
 
+  template <int dim>
+  void
+  Loads<dim>::add_all(const AffineConstraints<double> &constraints,
+                      VectorType                      &force) const
+  {
+    for (const LoadKind kind : {LoadKind::steady, LoadKind::varying})
+      add(kind, constraints, force);
+    force.compress(VectorOperation::add);
+  }
+
   template class Loads<2>;
   template class Loads<3>;
 } // namespace Signoton

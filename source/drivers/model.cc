@@ -118,6 +118,13 @@ namespace Signoton
     handler.add_parameter("Quiet zones",
                           quiet_zones,
                           "Explicit: skip cells that no wave has reached.");
+    handler.add_parameter("Times",
+                          times,
+                          "In s, separated by commas, that steps have to meet "
+                          "besides the end. Times at which loads or prescribed "
+                          "motions bend or jump by 'if', '?:', comparisons, "
+                          "min, max, abs, floor and the like, or by a table, "
+                          "are met anyway.");
     handler.add_parameter("Statistics every",
                           statistics_every,
                           "A line of statistics every n-th step and after the "
@@ -179,6 +186,14 @@ namespace Signoton
                           maximum_step_size,
                           "Steps do not grow beyond this size.",
                           Patterns::Double(1. / largest_number));
+    handler.add_parameter(
+      "Times",
+      times,
+      "Values of t, separated by commas, that steps have to meet "
+      "besides the end. Times at which loads or prescribed "
+      "motions bend or jump by 'if', '?:', comparisons, "
+      "min, max, abs, floor and the like, or by a table, "
+      "are met anyway; a jump is crossed by a step of its own.");
     handler.add_parameter("Easy iterations",
                           easy_iterations,
                           "A step with at most this many Newton iterations "
@@ -186,8 +201,9 @@ namespace Signoton
                           Patterns::Integer(0));
     handler.add_parameter("Growth",
                           growth,
-                          "Factor by which the step grows; after a cut it "
-                          "regrows to the first size by at least 1.5.",
+                          "Factor by which the step grows; one that has to be "
+                          "cut takes both halves, and brings what had grown "
+                          "back towards the first size.",
                           Patterns::Double(1., 10.));
     handler.leave_subsection();
   }

@@ -90,9 +90,15 @@ namespace Signoton
   Results<dim>::statistics_line(const VectorType &displacement,
                                 const StepRecord &record)
   {
-    const NewtonResult &newton            = record.solves.back();
-    unsigned int        newton_iterations = 0, most_newton = 0;
-    unsigned int        linear_iterations = 0, most_linear = 0;
+    const NewtonResult newton =
+      record.solves.empty() ? NewtonResult() : record.solves.back();
+    const auto residual = [&](const unsigned int before) {
+      return newton.history.size() > before ?
+               newton.history[newton.history.size() - 1 - before].residual :
+               0.;
+    };
+    unsigned int newton_iterations = 0, most_newton = 0;
+    unsigned int linear_iterations = 0, most_linear = 0;
     for (const auto &solve : record.solves)
       {
         newton_iterations += solve.iterations();
@@ -112,14 +118,14 @@ namespace Signoton
          {"most newton iterations of a solve", most_newton},
          {"linear iterations of all solves", linear_iterations},
          {"most linear iterations", most_linear},
-         {"residual", newton.history.back().residual},
+         {"residual", residual(0)},
          {"residual one iteration before",
-          newton.history[newton.iterations() > 0 ? newton.iterations() - 1 : 0]
-            .residual},
+          residual(newton.iterations() > 0 ? 1 : 0)},
          {"tangent regularization", newton.regularization},
          {"stored energy", record.balance.stored},
          {"dissipated energy", dissipation},
          {"external work", external_work},
+         {"energy gap", energy_gap(record)},
          {"transfer drift", record.transfer_drift},
          {"estimated error", record.estimated_error}};
     for (unsigned int r = 0; r < Rheology::n_regions; ++r)
@@ -145,6 +151,33 @@ namespace Signoton
   }
 
   template <int dim>
+  double
+  Results<dim>::energy_gap(const StepRecord &record) const
+  {
+    const double stored  = record.balance.stored,
+                 missing = stored - initial_energy - drift + dissipation -
+                           external_work,
+                 largest = std::max({stored,
+                                     initial_energy,
+                                     dissipation,
+                                     std::abs(external_work)});
+    return largest > 0. ? missing / largest : 0.;
+  }
+
+  template <int dim>
+  void
+  Results<dim>::at_rest(const VectorType &displacement,
+                        const StepRecord &record)
+  {
+    initial_energy   = record.balance.stored;
+    const auto timer = model.ledger.time("output");
+    output.append(statistics_line(displacement, record));
+    if (model.output.fields_every > 0)
+      output.write_fields(displacement, nullptr, record.time, 0);
+    output.write_lines(displacement, nullptr, record.time);
+  }
+
+  template <int dim>
   void
   Results<dim>::step(const VectorType &displacement,
                      const StepRecord &record,
@@ -154,6 +187,7 @@ namespace Signoton
     ++accepted_steps;
     external_work += record.external_work;
     dissipation += record.balance.dissipation;
+    drift += record.transfer_drift;
     {
       const auto timer = model.ledger.time("output");
       output.append(statistics_line(displacement, record));
@@ -193,6 +227,8 @@ namespace Signoton
     checkpoint.set("accepted steps", accepted_steps);
     checkpoint.set("external work", external_work);
     checkpoint.set("dissipated energy", dissipation);
+    checkpoint.set("transfer drift", drift);
+    checkpoint.set("initial energy", initial_energy);
     output.save(checkpoint);
   }
 
@@ -203,7 +239,9 @@ namespace Signoton
     accepted_steps = checkpoint.number("accepted steps");
     external_work  = checkpoint.number("external work");
     dissipation    = checkpoint.number("dissipated energy");
-    output.resume(checkpoint, accepted_steps);
+    drift          = checkpoint.number("transfer drift");
+    initial_energy = checkpoint.number("initial energy");
+    output.resume(checkpoint, accepted_steps + 1);
   }
 
   template class Results<2>;

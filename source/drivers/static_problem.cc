@@ -62,15 +62,9 @@ namespace Signoton
     const auto timer = model.ledger.time("external force");
     auto      &space = *model.space;
     space.update_constraints(model.conditions);
-    const auto collect = [&](const AffineConstraints<double> &constraints,
-                             VectorType                      &force) {
-      force = 0.;
-      for (const LoadKind kind : {LoadKind::steady, LoadKind::varying})
-        loads.add(kind, constraints, force);
-      force.compress(VectorOperation::add);
-    };
-    collect(space.constraints, load);
-    collect(space.mesh_constraints, load_of_mesh);
+    load = 0.;
+    loads.add_all(space.constraints, load);
+    load_of_mesh = loads_of_mesh(loads);
 
     double sum = load_of_mesh.l1_norm();
     for (const auto &line : space.constraints.get_lines())
@@ -84,6 +78,16 @@ namespace Signoton
                     "all times of the run",
                     "look for divisions by zero and roots of negative "
                     "numbers; the accepted steps are complete");
+  }
+
+  template <int dim>
+  VectorType
+  StaticProblem<dim>::loads_of_mesh(const Loads<dim> &loads) const
+  {
+    VectorType force;
+    model.mechanics->initialize_mesh_vector(force);
+    loads.add_all(model.space->mesh_constraints, force);
+    return force;
   }
 
   template <int dim>

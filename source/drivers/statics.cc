@@ -44,13 +44,17 @@ namespace Signoton
   Statics<dim>::solve(const double new_time, VectorType &u, const bool predict)
   {
     model.set_time(new_time);
-    model.mechanics->set_time_step(new_time - time);
+    // a jump takes no time: dampers stand still
+    model.mechanics->set_time_step(
+      model.times_to_meet.behind_jump(time) > time ? 1e-6 * step_size :
+                                                     new_time - time);
     problem.update_loads(loads);
     if (predict)
       {
         VectorType lift(u);
         model.space->constraints.distribute(lift);
         lift -= u;
+        support_work = support_force * lift;
         problem.predict(u, lift, model.newton.regularization);
       }
     else
@@ -188,27 +192,42 @@ namespace Signoton
     const double stored_after =
       model.mechanics->energy_balance(displacement).stored;
     record.transfer_drift += stored_after - stored_before;
-    mesh_force = problem.internal_force_of_mesh(displacement);
+    // a step that is cut starts from here
+    if (results.n_accepted() > 0)
+      {
+        support_force = problem.internal_force_of_mesh(displacement);
+        support_force -= carried_load();
+      }
+    else
+      support_force.reinit(displacement);
+  }
+
+  template <int dim>
+  double
+  Statics<dim>::whole_step_end() const
+  {
+    const double behind = model.times_to_meet.behind_jump(time);
+    return behind > time ? behind :
+                           model.times_to_meet.end_of_step(time, step_size);
   }
 
   template <int dim>
   bool
   Statics<dim>::advance()
   {
-    const LoadSteps &steps = model.load_steps;
-    bool             cut   = false;
-    unsigned int     cycle = 0;
-    record                 = StepRecord();
+    const LoadSteps &steps  = model.load_steps;
+    bool             is_cut = !step_ends.empty();
+    unsigned int     cycle  = 0;
+    record                  = StepRecord();
+    if (!is_cut)
+      step_ends.push_back(whole_step_end());
     while (true)
       {
-        // land exactly on the end, and avoid a sliver of a last step
-        double dt = std::min(step_size, steps.end - time);
-        if (time + 1.001 * dt >= steps.end)
-          dt = steps.end - time;
-        record.step_size = dt;
-
+        const double end = step_ends.back();
+        record.time      = end;
+        record.step_size = end - time;
         VectorType trial(displacement);
-        last_result = solve(time + dt, trial, true);
+        last_result = solve(end, trial, true);
         const unsigned int cycles =
           model.refinement.cycles(results.n_accepted() + 1);
         for (; cycle < cycles && last_result.converged; ++cycle)
@@ -216,26 +235,27 @@ namespace Signoton
             if (!refine(trial))
               break;
             results.cycle_line(cycle + 1, record);
-            last_result = solve(time + dt, trial, false);
+            last_result = solve(end, trial, false);
           }
         if (last_result.converged)
           {
-            accept(trial, dt);
-            if (cut)
-              step_size = std::min(steps.step_size, 1.5 * dt);
-            else if (last_result.iterations() <= steps.easy_iterations)
-              step_size =
-                std::min(steps.maximum_step_size,
-                         std::max(step_size * steps.growth,
-                                  std::min(steps.step_size, 1.5 * step_size)));
-            return true;
+            accept(trial);
+            break;
           }
-        results.failed_line(time + dt, last_result);
-        step_size = 0.5 * dt;
-        cut       = true;
-        if (step_size < steps.minimum_step_size)
+        results.failed_line(end, last_result);
+        if (0.5 * record.step_size < steps.minimum_step_size)
           return false;
+        is_cut = true;
+        step_ends.push_back(time + 0.5 * record.step_size);
       }
+    step_ends.pop_back();
+    if (is_cut && step_ends.empty()) // what had grown was too large
+      step_size =
+        std::max(0.5 * step_size, std::min(step_size, steps.step_size));
+    else if (!is_cut && record.step_size > 0.999 * step_size &&
+             last_result.iterations() <= steps.easy_iterations)
+      step_size = std::min(steps.maximum_step_size, step_size * steps.growth);
+    return true;
   }
 
   template <int dim>
@@ -247,29 +267,50 @@ namespace Signoton
 
   template <int dim>
   void
-  Statics<dim>::accept(const VectorType &trial, const double dt)
+  Statics<dim>::report_start()
+  {
+    model.mechanics->set_time_step(step_size);
+    record         = StepRecord();
+    record.time    = time;
+    record.balance = model.mechanics->energy_balance(displacement);
+    record.reactions.assign(dim * model.conditions.size(), 0.);
+    results.at_rest(displacement, record);
+  }
+
+  template <int dim>
+  VectorType
+  Statics<dim>::carried_load()
+  {
+    if (results.n_accepted() == 0)
+      return problem.internal_force_of_mesh(displacement);
+    model.set_time(time);
+    VectorType load = problem.loads_of_mesh(loads);
+    model.set_time(record.time);
+    return load;
+  }
+
+  template <int dim>
+  void
+  Statics<dim>::accept(const VectorType &trial)
   {
     const auto timer = model.ledger.time("results");
-    time += dt;
-    if (time + 1e-12 * std::abs(model.load_steps.end) > model.load_steps.end)
-      time = model.load_steps.end;
-    record.time    = time;
-    record.balance = model.mechanics->energy_balance(trial);
-    // writes the trial history of the converged iterate, to be committed
-    VectorType new_force = problem.internal_force_of_mesh(trial);
+    record.balance   = model.mechanics->energy_balance(trial);
     VectorType increment(trial);
     increment -= displacement;
-    mesh_force += new_force;
-    record.external_work = 0.5 * (mesh_force * increment);
-    record.reactions     = {};
+    record.external_work = 0.5 * (support_work + carried_load() * increment);
+    // writes the trial history of the converged iterate, to be committed
+    support_force = problem.internal_force_of_mesh(trial);
+    record.external_work += 0.5 * (support_force * increment);
+    support_force -= problem.loads_of_mesh(loads);
+    record.reactions.clear();
     for (const auto &reaction : problem.reactions(trial))
       for (unsigned int d = 0; d < dim; ++d)
         record.reactions.push_back(reaction[d]);
     // Regions and flow are those of the step: they are seen from its begin.
+    time = record.time;
     results.step(trial, record, is_last_step());
     model.mechanics->commit();
     displacement = trial;
-    mesh_force   = new_force;
   }
 
   template <int dim>
@@ -280,7 +321,8 @@ namespace Signoton
     if (resume_directory.empty())
       {
         setup_unknowns();
-        model.mechanics->initialize_vector(displacement);
+        for (VectorType *vector : {&displacement, &support_force})
+          model.mechanics->initialize_vector(*vector);
       }
     else
       {
@@ -291,22 +333,29 @@ namespace Signoton
         if (is_last_step())
           return results.nothing_left(time);
         step_size = checkpoint.number("step size");
+        for (const auto &name : checkpoint.names("end of a cut step "))
+          step_ends.push_back(checkpoint.number(name));
+        std::sort(step_ends.begin(), step_ends.end(), std::greater<double>());
         model.set_time(time);
         setup_unknowns();
-        model.mechanics->initialize_vector(displacement);
-        checkpoint.load_fields(history_space.get(), {&displacement});
+        for (VectorType *vector : {&displacement, &support_force})
+          model.mechanics->initialize_vector(*vector);
+        checkpoint.load_fields(history_space.get(),
+                               {&displacement, &support_force});
         model.space->mesh_constraints.distribute(displacement);
+        model.space->mesh_constraints.set_zero(support_force);
         results.resume(checkpoint);
       }
     results.start(time);
-    mesh_force = problem.internal_force_of_mesh(displacement);
+    if (resume_directory.empty())
+      report_start();
 
     while (!is_last_step())
       {
         if (!advance())
           {
             results.finish();
-            results.no_equilibrium(time, step_size, last_result);
+            results.no_equilibrium(time, 0.5 * record.step_size, last_result);
             return ExitStatus::no_equilibrium;
           }
         const unsigned int every = model.output.checkpoint_every;
@@ -321,8 +370,12 @@ namespace Signoton
             Checkpoint<dim> checkpoint(model, results.checkpoint_directory());
             checkpoint.set("time", time);
             checkpoint.set("step size", step_size);
+            for (std::size_t i = 0; i < step_ends.size(); ++i)
+              checkpoint.set("end of a cut step " + std::to_string(i),
+                             step_ends[i]);
             results.save(checkpoint);
-            checkpoint.write(history_space.get(), {&displacement});
+            checkpoint.write(history_space.get(),
+                             {&displacement, &support_force});
           }
         if (is_interrupted)
           return results.interrupt(time);

@@ -379,6 +379,7 @@ namespace Signoton
     check_boundaries();
     check_mesh();
     check_probes();
+    find_times_to_meet();
     model.mechanics = make_mechanics(space, model.materials);
 
     const auto timer = model.ledger.time("setup");

@@ -62,6 +62,11 @@ namespace Signoton
     void
     evaluate_loads();
 
+    /** If loads jump at the present time, take those behind the jump.
+     *  @return whether they do */
+    bool
+    pass_jump();
+
     /** Accelerations by the present forces.
      *  @param step in s if the velocity is that of the middle of a step, see
      *    AbsorbingBoundary::accelerate(); zero if it is the present one */

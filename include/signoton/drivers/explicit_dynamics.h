@@ -13,7 +13,9 @@ namespace Signoton
    * of second order, stable for $\tau$ up to the time in which the fastest wave
    * crosses the smallest cell. Over a step, $\tfrac12 v\cdot Mv-
    * \tfrac{\tau^2}{8}a\cdot Ma$ changes by the work of the mean of the forces
-   * at both ends, to round-off: the receipt is built on that.
+   * at both ends, to round-off: the receipt is built on that. Where loads jump,
+   * one step ends with the force before the jump, the next begins with the one
+   * behind it.
    */
   template <int dim>
   class ExplicitDynamics : public Dynamics<dim>
@@ -27,7 +29,7 @@ namespace Signoton
     void
     setup() override;
 
-    /** Steps of one size up to the end. */
+    /** Steps of one size up to the next time to meet. */
     void
     choose_step() override;
     void
@@ -94,7 +96,8 @@ namespace Signoton
     double       undamped_step   = 0.; ///< stable without shock viscosity, in s
     double       usual_stable_step = 0.; ///< but for strong shocks, in s
     double       stable_step       = 0.;
-    unsigned int steps_left        = 0;
+    double       next_to_meet      = 0.; ///< in s
+    unsigned int steps_left        = 0;  ///< up to there
   };
 } // namespace Signoton
 

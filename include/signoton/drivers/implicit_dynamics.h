@@ -75,6 +75,19 @@ namespace Signoton
       VectorType displacement, velocity, acceleration;
     };
 
+    /** Where loads jump, so do accelerations; the steps begin anew. */
+    void
+    restart_at_jump();
+
+    /** The end of a step of the size wanted next: not beyond a time to meet, and
+     *  shorter where loads vary within it. */
+    double
+    end_of_step(const double start);
+
+    /** Say once that loads do what the steps do not see. */
+    void
+    warn_of_loads(const double start, const double bend);
+
     /** Solve for the end of the step of size `time_step`. */
     NewtonResult
     solve(Motion &trial);
@@ -102,6 +115,7 @@ namespace Signoton
     InertialProblem<dim> problem;
     Newton               newton;
 
+    bool   has_warned        = false;
     bool   is_automatic      = true;
     double stable_step       = 0.; ///< of central differences
     double next_step         = 0.;

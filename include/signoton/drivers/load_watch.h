@@ -11,20 +11,17 @@ namespace Signoton
   class LoadWatch
   {
   public:
-    /** @p function must outlive the object. */
+    /** Watch a function, which must outlive the object, in a run from @p start
+     *  to @p end. Leaves another time set. */
     void
-    add(SpaceTimeFunction<dim> &function)
-    {
-      watched.push_back(
-        {&function, std::vector<double>(function.n_components)});
-    }
+    add(SpaceTimeFunction<dim> &function, const double start, const double end);
 
     /** Places at which functions are looked at. */
     std::vector<Point<dim>> places;
 
     /** The largest distance of a function in an interval from the straight line
-     *  between its ends, relative to the largest value that was ever seen.
-     *  Leaves another time set. */
+     *  between its ends, relative to its largest value in the run. Leaves
+     *  another time set. */
     double
     bend(const double from, const double to);
 
@@ -32,8 +29,12 @@ namespace Signoton
     struct Watched
     {
       SpaceTimeFunction<dim> *function;
-      std::vector<double>     largest; ///< seen so far, by component
+      std::vector<double>     largest; ///< in the run, by component
     };
+
+    /** Values at one time, by component and place. */
+    std::vector<double>
+    values(SpaceTimeFunction<dim> &function, const double time) const;
 
     std::vector<Watched> watched;
   };

@@ -32,6 +32,11 @@ namespace Signoton
         const AffineConstraints<double> &constraints,
         VectorType                      &force) const;
 
+    /** Add all of them, and compress. */
+    void
+    add_all(const AffineConstraints<double> &constraints,
+            VectorType                      &force) const;
+
   private:
     const Model<dim> &model;
     SurfaceLoad<dim>  surface_load;

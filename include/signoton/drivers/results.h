@@ -35,6 +35,10 @@ namespace Signoton
     void
     start(const double time);
 
+    /** Record the state at the start, as step 0. */
+    void
+    at_rest(const VectorType &displacement, const StepRecord &record);
+
     /** Record an accepted step. */
     void
     step(const VectorType &displacement,
@@ -100,6 +104,12 @@ namespace Signoton
     void
     print_newton_history(const NewtonResult &newton);
 
+    /** Stored and dissipated energy since the start that no work of loads and
+     *  supports, and no change of the mesh, has brought, relative to the
+     *  largest energy: the error of finite steps, and what a new mesh loosens. */
+    double
+    energy_gap(const StepRecord &record) const;
+
     /** Names and values of a line of the statistics. */
     typename RunOutput<dim>::Line
     statistics_line(const VectorType &displacement, const StepRecord &record);
@@ -107,7 +117,9 @@ namespace Signoton
     Model<dim>    &model;
     RunOutput<dim> output;
     unsigned int   accepted_steps = 0;
-    double         external_work = 0., dissipation = 0.;
+    /** Since the start, in J. */
+    double external_work = 0., dissipation = 0., drift = 0.;
+    double initial_energy = 0.; ///< stored, in J
   };
 } // namespace Signoton
 

@@ -23,6 +23,10 @@ namespace Signoton
     void
     update_loads(const Loads<dim> &loads);
 
+    /** The loads of that time in N, before the elimination of constraints. */
+    VectorType
+    loads_of_mesh(const Loads<dim> &loads) const;
+
     double
     evaluate(const VectorType &u,
              VectorType       &gradient,

@@ -16,8 +16,15 @@ namespace Signoton
    *
    * What is tried when Newton's method fails, in this order: the same step with
    * strong binders that are weakened by tenths (if there are proportional
-   * binders), half the step. Below the smallest step the run ends with
-   * ExitStatus::no_equilibrium; all accepted steps are on disk.
+   * binders), half the step. Both halves are taken, each halved again if it
+   * has to be, so that all steps end where they would have ended otherwise.
+   * Below the smallest step the run ends with ExitStatus::no_equilibrium; all
+   * accepted steps are on disk.
+   *
+   * The external work of a step is that of the mean of the loads before and
+   * after, and of the mean of the reactions where displacements are prescribed.
+   * What acts at the start is applied over the first step, growing from what
+   * the body carries by its initial stress.
    */
   template <int dim>
   class Statics
@@ -39,9 +46,13 @@ namespace Signoton
     NewtonResult
     solve(const double time, VectorType &u, const bool predict);
 
-    /** Take a step of any size up to dt; false if none succeeds. */
+    /** Take a step, or a part of one; false if no part succeeds. */
     bool
     advance();
+
+    /** Where the next step would end: on a time to meet, or before. */
+    double
+    whole_step_end() const;
 
     /** Refine the mesh; false if it stays as it is. Changes the accepted
      *  state, and the trial displacement, to the new mesh. */
@@ -51,9 +62,16 @@ namespace Signoton
     void
     transfer(VectorType &trial);
 
+    void
+    report_start();
+
+    /** The loads before the trial state, in N, on the present mesh. */
+    VectorType
+    carried_load();
+
     /** Report the trial state and make it the accepted one. */
     void
-    accept(const VectorType &trial, const double dt);
+    accept(const VectorType &trial);
 
     /** Whether the accepted state, or the one being reported, is at the end of
      *  the load history. */
@@ -70,9 +88,13 @@ namespace Signoton
     StepRecord   record;
     NewtonResult last_result;
     VectorType   displacement; ///< accepted
-    VectorType   mesh_force;   ///< accepted, for the work of loads
-    double       time      = 0.;
-    double       step_size = 0.;
+    /** Internal forces without loads in the accepted state: where the body is
+     *  supported, the reactions. */
+    VectorType          support_force;
+    double              support_work = 0.; ///< of these in the step, in J
+    double              time         = 0.;
+    double              step_size    = 0.; ///< of a step that is not cut
+    std::vector<double> step_ends; ///< not reached yet, the innermost at last
   };
 } // namespace Signoton
 

@@ -82,6 +82,10 @@ namespace Signoton
     void
     check_supports() const;
 
+    /** From the file, and the kinks of all loads and prescribed motions. */
+    void
+    find_times_to_meet();
+
     void
     interpret_probes();
     void

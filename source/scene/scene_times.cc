@@ -1,0 +1,123 @@
+#include <signoton/scene/scene.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <cmath>
+
+// The times that the steps of a scene have to meet.
+
+namespace Signoton
+{
+  namespace
+  {
+    /** Some places in the body's bounding box and on its sides, the same on all
+     *  ranks, where no function is likely to vanish by symmetry. */
+    template <int dim>
+    std::vector<Point<dim>>
+    sample_places(const Triangulation<dim> &mesh, const MPI_Comm &communicator)
+    {
+      const auto &corners =
+        GridTools::compute_bounding_box(mesh).get_boundary_points();
+      Point<dim> low, high;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          low[d]  = Utilities::MPI::min(corners.first[d], communicator);
+          high[d] = Utilities::MPI::max(corners.second[d], communicator);
+        }
+      std::vector<Point<dim>> places(35);
+      for (unsigned int i = 0; i < places.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int side = i % (2 * dim + 1);
+            const double       part =
+              side == 2 * d     ? 0. :
+                    side == 2 * d + 1 ? 1. :
+                                        std::fmod(0.31 + (0.618 + 0.131 * d) * i, 1.);
+            places[i][d] = low[d] + part * (high[d] - low[d]);
+          }
+      return places;
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Scene<dim>::find_times_to_meet()
+  {
+    const SceneFile  &file = model.file;
+    const std::string section =
+      model.is_dynamic ? "Time integration" : "Load steps";
+    const double start = model.start_time(), end = model.end_time();
+    model.times_to_meet     = TimesToMeet(start, end);
+    const std::string where = file.where({section}, "Times");
+    for (const double time :
+         read_times(model.is_dynamic ? model.time_integration.times :
+                                       model.load_steps.times,
+                    where))
+      {
+        if (time < start || time > end)
+          throw UserError(where,
+                          Utilities::to_string(time),
+                          "times from 'Start time' to 'End time', " +
+                            Utilities::to_string(start) + " to " +
+                            Utilities::to_string(end),
+                          "other times are not met");
+        model.times_to_meet.add(time);
+      }
+
+    model.load_watch.places =
+      sample_places(model.space->mesh, model.communicator);
+    const auto look = [&](const std::unique_ptr<SpaceTimeFunction<dim>> &f,
+                          const std::string                             &at) {
+      std::vector<Kink> kinks;
+      if (f && f->varies())
+        {
+          kinks = f->kinks(start, end, model.load_watch.places);
+          model.load_watch.add(*f, start, end);
+        }
+      if (kinks.size() > most_kinks)
+        {
+          warnings.push_back(at + " has more than " +
+                             std::to_string(most_kinks) +
+                             " kinks in time: steps do not meet them");
+          kinks.clear();
+        }
+      model.times_to_meet.add(kinks);
+      return kinks;
+    };
+    const char axes[] = {'x', 'y', 'z'};
+    for (auto &condition : model.conditions)
+      {
+        const SceneFile::Path path = {"Boundaries", condition.name};
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const std::string at =
+              file.where(path, std::string("Displacement ") + axes[d]);
+            for (const Kink &kink : look(condition.displacement[d], at))
+              if (model.is_dynamic && kink.jumps)
+                throw UserError(at,
+                                "a displacement that jumps at t = " +
+                                  Utilities::to_string(kink.after),
+                                "one that is continuous in time: a jump is an "
+                                "impact of any strength",
+                                "let it change in a short time, or prescribe "
+                                "a velocity");
+            look(condition.velocity[d],
+                 file.where(path, std::string("Velocity ") + axes[d]));
+          }
+        look(condition.traction, file.where(path, "Traction"));
+        look(condition.pressure, file.where(path, "Pressure"));
+      }
+    for (auto &point : model.point_forces)
+      look(point.force, file.where({"Point forces", point.name}, "Force"));
+    look(model.gravity, file.where({"Loads"}, "Gravity"));
+    // the state of a body with mass knows nothing of a jump in no time
+    if (model.is_dynamic)
+      model.time_integration.end = model.times_to_meet.end_before_jump();
+  }
+
+#define INSTANTIATE(dim) template void Scene<dim>::find_times_to_meet();
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Signoton
