@@ -175,12 +175,19 @@ namespace Signoton
 
   template <int dim>
   double
+  SpaceTimeFunction<dim>::sample(const Point<dim>  &p,
+                                 const unsigned int component) const
+  {
+    const Component &c = components[component];
+    return c.table ? (*c.table)(this->get_time()) : c.expression->value(p);
+  }
+
+  template <int dim>
+  double
   SpaceTimeFunction<dim>::value(const Point<dim>  &p,
                                 const unsigned int component) const
   {
-    const Component &c = components[component];
-    const double     value =
-      c.table ? (*c.table)(this->get_time()) : c.expression->value(p);
+    const double value = sample(p, component);
     if (!std::isfinite(value) && found.empty())
       {
         std::ostringstream text;
@@ -245,7 +252,7 @@ namespace Signoton
           set_time(time);
           std::vector<double> values;
           for (const Point<dim> &place : places)
-            values.push_back(value(place, c));
+            values.push_back(sample(place, c));
           return values;
         };
         // a jump is more than steepness over the round-off of the time

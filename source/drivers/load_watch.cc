@@ -14,7 +14,7 @@ namespace Signoton
     function.set_time(time);
     for (unsigned int c = 0; c < function.n_components; ++c)
       for (const Point<dim> &place : places)
-        result.push_back(function.value(place, c));
+        result.push_back(function.sample(place, c));
     return result;
   }
 

@@ -1,3 +1,4 @@
+#include <signoton/base/number.h>
 #include <signoton/scene/scene.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -16,7 +17,7 @@ namespace Signoton
     std::vector<Point<dim>>
     sample_places(const Triangulation<dim> &mesh, const MPI_Comm &communicator)
     {
-      const auto &corners =
+      const auto corners =
         GridTools::compute_bounding_box(mesh).get_boundary_points();
       Point<dim> low, high;
       for (unsigned int d = 0; d < dim; ++d)
@@ -56,10 +57,9 @@ namespace Signoton
       {
         if (time < start || time > end)
           throw UserError(where,
-                          Utilities::to_string(time),
+                          number_text(time),
                           "times from 'Start time' to 'End time', " +
-                            Utilities::to_string(start) + " to " +
-                            Utilities::to_string(end),
+                            number_text(start) + " to " + number_text(end),
                           "other times are not met");
         model.times_to_meet.add(time);
       }
@@ -96,7 +96,7 @@ namespace Signoton
               if (model.is_dynamic && kink.jumps)
                 throw UserError(at,
                                 "a displacement that jumps at t = " +
-                                  Utilities::to_string(kink.after),
+                                  number_text(kink.after),
                                 "one that is continuous in time: a jump is an "
                                 "impact of any strength",
                                 "let it change in a short time, or prescribe "

@@ -33,6 +33,11 @@ namespace Signoton
     double
     value(const Point<dim> &p, const unsigned int component = 0) const override;
 
+    /** The value at a place that need not be in the body, where it may be
+     *  anything. */
+    double
+    sample(const Point<dim> &p, const unsigned int component) const;
+
     void
     set_time(const double time) override;
 
