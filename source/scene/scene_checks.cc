@@ -1,3 +1,4 @@
+#include <signoton/discretization/rigid_motions.h>
 #include <signoton/scene/scene.h>
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>
