@@ -37,6 +37,7 @@ namespace Signoton
   Space<dim>::distribute_dofs()
   {
     dof_handler.distribute_dofs(fe);
+    held.clear();
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant_dofs);
     mesh_constraints.reinit(relevant_dofs);
     DoFTools::make_hanging_node_constraints(dof_handler, mesh_constraints);
@@ -51,7 +52,9 @@ namespace Signoton
   Space<dim>::update_constraints(const BoundaryConditions<dim> &conditions)
   {
     constraints.reinit(relevant_dofs);
-    constrain_displacement(mapping, dof_handler, conditions, constraints);
+    if (!held.is_current())
+      held.reinit(*this, conditions);
+    held.constrain(conditions, constraints);
     constraints.merge(mesh_constraints,
                       AffineConstraints<double>::left_object_wins,
                       true);

@@ -1,4 +1,5 @@
 #include <signoton/drivers/dynamics.h>
+#include <signoton/drivers/reactions.h>
 #include <signoton/operators/lumped_mass.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -26,7 +27,6 @@ namespace Signoton
     space.update_constraints(model.conditions);
     model.mechanics->reinit();
     supports.reinit(space, model.conditions);
-    moved = supports.moved();
     absorbing.reinit(space, model.materials, model.conditions, supports);
     loads.reinit();
     const bool remembers = model.mechanics->history_width() > 0;
@@ -228,6 +228,29 @@ namespace Signoton
   }
 
   template <int dim>
+  VectorType
+  Dynamics<dim>::support_forces() const
+  {
+    VectorType force(internal);
+    for (unsigned int i = 0; i < force.locally_owned_size(); ++i)
+      force.local_element(i) -= external.local_element(i);
+    if (!absorbing.empty())
+      force += dashpots;
+    if (!supports.moving().empty())
+      {
+        // a prescribed velocity changes from this step to the next
+        VectorType next(velocity);
+        supports.move(displacement, time, time_step, next);
+        next -= velocity;
+        for (const auto &node : supports.moving())
+          node.write(node.read(force) + mass.local_element(node.index[0]) /
+                                          time_step * node.held_part(next),
+                     force);
+      }
+    return force;
+  }
+
+  template <int dim>
   void
   Dynamics<dim>::add_statistics(const VectorType &u, const VectorType &v)
   {
@@ -257,6 +280,9 @@ namespace Signoton
     for (unsigned int d = 0; d < dim; ++d)
       line.emplace_back(axes[d], p[d]);
     add_columns(line);
+    const auto reactions = reaction_columns(model, support_forces());
+    line.insert(line.end(), reactions.begin(), reactions.end());
+    model.set_time(time); // of references
     output.add_common(line,
                       u,
                       &v,

@@ -85,14 +85,16 @@ namespace Signoton
     // Waves that are only in the velocity yet are seen in the strain of the next
     // step, which has their amplitude.
     VectorType u(displacement), v(velocity), moved_v(velocity);
-    for (unsigned int i = 0; i < n_times && !moved.empty(); ++i)
+    for (unsigned int i = 0; i < n_times && !supports.moving().empty(); ++i)
       {
         const double before = look_at(i) - time_step;
         supports.place(u, before);
         supports.move(u, before, time_step, moved_v);
-        for (const unsigned int m : moved)
-          if (std::abs(moved_v.local_element(m)) > std::abs(v.local_element(m)))
-            v.local_element(m) = moved_v.local_element(m);
+        for (const auto &node : supports.moving())
+          for (const unsigned int m : node.index)
+            if (std::abs(moved_v.local_element(m)) >
+                std::abs(v.local_element(m)))
+              v.local_element(m) = moved_v.local_element(m);
       }
     u = displacement;
     u.add(time_step, v);
@@ -169,6 +171,7 @@ namespace Signoton
         mechanics->load_history(*history_space, new_history);
       }
     supports.place(displacement, time);
+    supports.stop(velocity);
     v.copy_locally_owned_data_from(velocity);
     space.mesh_constraints.distribute(v);
     v.update_ghost_values();

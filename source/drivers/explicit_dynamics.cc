@@ -141,9 +141,9 @@ namespace Signoton
       external.swap(old_external);
     if (!absorbing.empty())
       dashpots.swap(old_dashpots);
-    for (const unsigned int i : moved)
-      before.first += mass.local_element(i) * velocity.local_element(i) *
-                      velocity.local_element(i);
+    for (const auto &node : supports.moving())
+      before.first += mass.local_element(node.index[0]) *
+                      node.held_part(velocity).norm_square();
     const unsigned int n = displacement.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
       {
@@ -230,17 +230,15 @@ namespace Signoton
                   (dashpots.local_element(i) + old_dashpots.local_element(i));
     // a prescribed motion takes the force that it takes
     double supported = -0.5 * before.first;
-    for (const unsigned int i : moved)
+    for (const auto &node : supports.moving())
       {
-        const double v    = velocity.local_element(i);
-        const double path = 0.5 * dt * v;
-        supported +=
-          0.5 * mass.local_element(i) * v * v +
-          path * (internal.local_element(i) + old_internal.local_element(i) -
-                  external.local_element(i) - external_before.local_element(i));
+        const Tensor<1, dim> v = node.held_part(velocity);
+        Tensor<1, dim> force   = node.read(internal) + node.read(old_internal) -
+                               node.read(external) - node.read(external_before);
         if (!absorbing.empty())
-          supported +=
-            path * (dashpots.local_element(i) + old_dashpots.local_element(i));
+          force += node.read(dashpots) + node.read(old_dashpots);
+        supported += 0.5 * mass.local_element(node.index[0]) * v.norm_square() +
+                     0.5 * dt * (v * force);
       }
     const DynamicSums sums =
       this->enter_step(inner - 0.125 * dt * dt * (half_after - before.second),

@@ -110,8 +110,8 @@ namespace Signoton
     supports.move(displacement, time - dt, dt, trial.velocity);
     VectorType lift, predicted(displacement), pull(external);
     lift.reinit(displacement);
-    for (const unsigned int i : moved)
-      lift.local_element(i) = dt * trial.velocity.local_element(i);
+    for (const auto &node : supports.moving())
+      node.write(dt * node.held_part(trial.velocity), lift);
 
     // Without an acceleration at its end, the step would lead to a displacement
     // and a velocity; the one of the dashpots is kept in the trial.
@@ -126,11 +126,11 @@ namespace Signoton
           radius * (old_external.local_element(i) - internal.local_element(i)) -
           (2. * radius - 1.) * mass.local_element(i) * a;
       }
-    for (const unsigned int i : moved)
+    for (const auto &node : supports.moving())
       {
-        trial.velocity.local_element(i) = lift.local_element(i) / dt;
-        predicted.local_element(i) =
-          displacement.local_element(i) + lift.local_element(i);
+        const Tensor<1, dim> path = node.read(lift);
+        node.set_held_part(path / dt, trial.velocity);
+        node.set_held_part(node.held_part(displacement) + path, predicted);
       }
     if (!absorbing.empty())
       {
@@ -139,8 +139,8 @@ namespace Signoton
         absorbing.add_force(trial.velocity, damped);
         pull.add(-1., damped, -radius, dashpots);
       }
-    for (const unsigned int i : moved)
-      pull.local_element(i) = 0.;
+    for (const auto &node : supports.moving())
+      node.set_held_part(Tensor<1, dim>(), pull);
     problem.set_step((2. - radius) / (beta * dt * dt),
                      gamma / (beta * dt),
                      predicted,
@@ -164,10 +164,10 @@ namespace Signoton
         }
       else // follows others
         trial.displacement.local_element(i) = 0.;
-    for (const unsigned int i : moved)
+    for (const auto &node : supports.moving())
       {
-        trial.acceleration.local_element(i) = 0.;
-        trial.velocity.local_element(i)     = lift.local_element(i) / dt;
+        node.set_held_part(Tensor<1, dim>(), trial.acceleration);
+        node.set_held_part(node.held_part(lift) / dt, trial.velocity);
       }
     return result;
   }
@@ -371,19 +371,25 @@ namespace Signoton
       }
     // a prescribed motion takes the force that it takes
     double supported = 0.;
-    for (const unsigned int i : moved)
+    for (const auto &node : supports.moving())
       {
-        const double path = displacement.local_element(i) -
-                            before.displacement.local_element(i),
-                     v      = velocity.local_element(i),
-                     w      = before.velocity.local_element(i),
-                     change = 0.5 * mass.local_element(i) * (v * v - w * w);
-        double force =
-          mean(internal, old_internal, i) - mean(external, old_external, i);
-        if (!absorbing.empty())
-          force += mean(dashpots, old_dashpots, i);
-        supported += change + path * force;
+        const Tensor<1, dim> path = node.held_part(displacement) -
+                                    node.held_part(before.displacement),
+                             v = node.held_part(velocity),
+                             w = node.held_part(before.velocity);
+        const double change    = 0.5 * mass.local_element(node.index[0]) *
+                              (v.norm_square() - w.norm_square());
+        supported += change;
         gained -= change;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int i = node.index[d];
+            double             force =
+              mean(internal, old_internal, i) - mean(external, old_external, i);
+            if (!absorbing.empty())
+              force += mean(dashpots, old_dashpots, i);
+            supported += path[d] * force;
+          }
       }
     this->enter_step(
       inner + inertia - gained, outer + supported, damped, kinetic, own);

@@ -106,37 +106,31 @@ namespace Signoton
         linear_iterations += solve.linear_iterations();
         most_linear = std::max(most_linear, solve.most_linear_iterations());
       }
-    const std::array<std::string, 3> axes = {{"x", "y", "z"}};
-    typename RunOutput<dim>::Line    line = {
-         {"step", accepted_steps},
-         {"time", record.time},
-         {"step size", record.step_size},
-         {"cells", model.space->mesh.n_global_active_cells()},
-         {"unknowns", model.space->dof_handler.n_dofs()},
-         {"newton iterations", newton.iterations()},
-         {"newton iterations of all solves", newton_iterations},
-         {"most newton iterations of a solve", most_newton},
-         {"linear iterations of all solves", linear_iterations},
-         {"most linear iterations", most_linear},
-         {"residual", residual(0)},
-         {"residual one iteration before",
-          residual(newton.iterations() > 0 ? 1 : 0)},
-         {"tangent regularization", newton.regularization},
-         {"stored energy", record.balance.stored},
-         {"dissipated energy", dissipation},
-         {"external work", external_work},
-         {"energy gap", energy_gap(record)},
-         {"transfer drift", record.transfer_drift},
-         {"estimated error", record.estimated_error}};
+    typename RunOutput<dim>::Line line = {
+      {"step", accepted_steps},
+      {"time", record.time},
+      {"step size", record.step_size},
+      {"cells", model.space->mesh.n_global_active_cells()},
+      {"unknowns", model.space->dof_handler.n_dofs()},
+      {"newton iterations", newton.iterations()},
+      {"newton iterations of all solves", newton_iterations},
+      {"most newton iterations of a solve", most_newton},
+      {"linear iterations of all solves", linear_iterations},
+      {"most linear iterations", most_linear},
+      {"residual", residual(0)},
+      {"residual one iteration before",
+       residual(newton.iterations() > 0 ? 1 : 0)},
+      {"tangent regularization", newton.regularization},
+      {"stored energy", record.balance.stored},
+      {"dissipated energy", dissipation},
+      {"external work", external_work},
+      {"energy gap", energy_gap(record)},
+      {"transfer drift", record.transfer_drift},
+      {"estimated error", record.estimated_error}};
     for (unsigned int r = 0; r < Rheology::n_regions; ++r)
       line.emplace_back(std::string("share of ") + Rheology::region_names[r],
                         record.balance.region_share[r]);
-    for (unsigned int i = 0; i < model.conditions.size(); ++i)
-      if (model.conditions[i].constrains())
-        for (unsigned int d = 0; d < dim; ++d)
-          line.emplace_back("reaction " + model.conditions[i].name + " " +
-                              axes[d],
-                            record.reactions[dim * i + d]);
+    line.insert(line.end(), record.reactions.begin(), record.reactions.end());
     output.add_common(line,
                       displacement,
                       nullptr,

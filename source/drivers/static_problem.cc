@@ -1,3 +1,4 @@
+#include <signoton/discretization/rigid_motions.h>
 #include <signoton/drivers/run_checks.h>
 #include <signoton/drivers/static_problem.h>
 
@@ -234,32 +235,6 @@ namespace Signoton
     if (result.converged)
       u += du;
     return result.converged;
-  }
-
-  template <int dim>
-  std::vector<Tensor<1, dim>>
-  StaticProblem<dim>::reactions(const VectorType &u)
-  {
-    const VectorType            force = support_forces(u);
-    std::vector<Tensor<1, dim>> result(model.conditions.size());
-    VectorType                  at_boundary(force);
-    for (unsigned int i = 0; i < model.conditions.size(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (model.conditions[i].displacement[d] || model.conditions[i].symmetry)
-          {
-            ComponentMask mask(dim, false);
-            mask.set(d, true);
-            // the owner of an unknown may not have the boundary face
-            at_boundary = 0.;
-            for (const auto dof : DoFTools::extract_boundary_dofs(
-                   model.space->dof_handler, mask, {model.conditions[i].id}))
-              if (at_boundary.get_partitioner()->in_local_range(dof) ||
-                  at_boundary.get_partitioner()->is_ghost_entry(dof))
-                at_boundary[dof] = 1.;
-            at_boundary.compress(VectorOperation::max);
-            result[i][d] = at_boundary * force;
-          }
-    return result;
   }
 
   template class StaticProblem<2>;

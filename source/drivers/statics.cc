@@ -1,4 +1,5 @@
 #include <signoton/drivers/checkpoint.h>
+#include <signoton/drivers/reactions.h>
 #include <signoton/drivers/statics.h>
 
 #include <deal.II/distributed/solution_transfer.h>
@@ -273,7 +274,9 @@ namespace Signoton
     record         = StepRecord();
     record.time    = time;
     record.balance = model.mechanics->energy_balance(displacement);
-    record.reactions.assign(dim * model.conditions.size(), 0.);
+    VectorType nothing(displacement);
+    nothing          = 0.;
+    record.reactions = reaction_columns(model, nothing);
     results.at_rest(displacement, record);
   }
 
@@ -302,10 +305,7 @@ namespace Signoton
     support_force = problem.internal_force_of_mesh(trial);
     record.external_work += 0.5 * (support_force * increment);
     support_force -= problem.loads_of_mesh(loads);
-    record.reactions.clear();
-    for (const auto &reaction : problem.reactions(trial))
-      for (unsigned int d = 0; d < dim; ++d)
-        record.reactions.push_back(reaction[d]);
+    record.reactions = reaction_columns(model, support_force);
     // Regions and flow are those of the step: they are seen from its begin.
     time = record.time;
     results.step(trial, record, is_last_step());

@@ -5,6 +5,7 @@
 #include <signoton/drivers/implicit_dynamics.h>
 #include <signoton/drivers/point.h>
 #include <signoton/drivers/statics.h>
+#include <signoton/scene/boundary_report.h>
 #include <signoton/scene/requirements.h>
 #include <signoton/scene/scene.h>
 
@@ -52,6 +53,9 @@ namespace Signoton
         screen << "  warning: " << warning << "\n";
       for (const auto &note : scene.notes)
         screen << "  mesh: " << note << "\n";
+      for (const auto &remark : boundary_remarks(scene.model))
+        screen << "  note: " << remark << "\n";
+      screen << "  boundary: " << boundary_parts(scene.model) << "\n";
       if (options.action != Options::Action::explain)
         require_memory(communicator,
                        memory_forecast(scene.model).total() / ranks,

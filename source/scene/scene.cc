@@ -123,8 +123,10 @@ namespace Signoton
                       Patterns::Integer(2, 3));
     prm.add_parameter("Embedding",
                       embedding,
-                      "How a 2D mesh sits in space: plane strain, or "
-                      "axisymmetric with x the radius and y the axis.",
+                      "How a 2D mesh sits in space: plane strain, forces per "
+                      "metre; or axisymmetric with x the radius and y the "
+                      "axis, forces and reactions over the full circle. The "
+                      "axis needs no support.",
                       Patterns::Selection(
                         dim == 2 ? "plane strain|axisymmetric" : "solid"));
     prm.add_parameter("Analysis",

@@ -1,5 +1,6 @@
 #include <signoton/base/number.h>
 #include <signoton/base/quoting.h>
+#include <signoton/discretization/rigid_motions.h>
 #include <signoton/scene/scene.h>
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>

@@ -104,17 +104,23 @@ namespace Signoton
   {
     /** Whether the residual of a linear problem is at its round-off; if so, the
      *  result says it. A body that flows away has large displacements and with
-     *  them round-off, but no answer. */
+     *  them round-off, but no answer. Where all forces are round-off, as in a
+     *  rigid motion of the supports, there are no digits to ask for.
+     *  @param scale of the forces */
     bool
     accept_round_off(ConvexProblem                   &problem,
                      const ConvexProblem::VectorType &x,
                      const double                     norm,
+                     const double                     scale,
                      NewtonResult                    &result)
     {
       constexpr double least_digits = 1e-6;
-      result.at_round_off           = problem.is_linear() &&
-                            result.history.back().residual <= least_digits &&
-                            norm <= problem.round_off(x);
+      if (!problem.is_linear())
+        return false;
+      const double round_off = problem.round_off(x);
+      result.at_round_off =
+        norm <= round_off &&
+        (result.history.back().residual <= least_digits || scale <= round_off);
       result.converged = result.at_round_off;
       return result.converged;
     }
@@ -145,7 +151,7 @@ namespace Signoton
             result.converged = true;
             return result;
           }
-        if (iteration > 0 && accept_round_off(problem, x, norm, result))
+        if (iteration > 0 && accept_round_off(problem, x, norm, scale, result))
           return result;
         if (iteration == parameters.maximum_iterations)
           {
@@ -200,12 +206,12 @@ namespace Signoton
                 rho = std::max(1e-8, 100. * rho);
               }
             // where there is no decrease any more there may be none to find
-            if (next.linear_solves == 2 && iteration > 0 &&
-                accept_round_off(problem, x, norm, result))
+            if (next.linear_solves == 2 &&
+                accept_round_off(problem, x, norm, scale, result))
               return result;
             if (rho > 2.)
               {
-                if (!accept_round_off(problem, x, norm, result))
+                if (!accept_round_off(problem, x, norm, scale, result))
                   result.reason = linear.reason;
                 return result;
               }

@@ -78,6 +78,7 @@ namespace PhysicalNumbers
         name == "transfer drift" || name.rfind("lost by", 0) == 0)
       return "energy";
     for (const char *prefix : {"reaction",
+                               "moment ",
                                "displacement",
                                "velocity",
                                "stress",

@@ -4,11 +4,8 @@
 #include <signoton/base/function.h>
 #include <signoton/discretization/geometry.h>
 
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/mapping.h>
-#include <deal.II/lac/affine_constraints.h>
-
-#include <optional>
+#include <array>
+#include <memory>
 
 namespace Signoton
 {
@@ -68,6 +65,8 @@ namespace Signoton
     types::boundary_id id = numbers::invalid_boundary_id;
 
     bool symmetry = false;
+    /** In degrees: facets with symmetry that turn by more are held both. */
+    double kink_angle = 25.;
     /** One expression per prescribed component. */
     std::array<std::unique_ptr<SpaceTimeFunction<dim>>, dim> displacement;
     std::array<std::unique_ptr<SpaceTimeFunction<dim>>, dim> velocity;
@@ -91,40 +90,6 @@ namespace Signoton
 
   template <int dim>
   using BoundaryConditions = std::vector<BoundaryCondition<dim>>;
-
-  /** Add the conditions on the displacement to @p constraints, as they are at
-   *  the time last set. Does not close the constraints. */
-  template <int dim>
-  void
-  constrain_displacement(const Mapping<dim>            &mapping,
-                         const DoFHandler<dim>         &dof_handler,
-                         const BoundaryConditions<dim> &conditions,
-                         AffineConstraints<double>     &constraints);
-
-  /**
-   * Names of the rigid motions that the constraints leave free, such as
-   * "translation x" or "rotation about z". Statics has no unique solution
-   * unless the list is empty.
-   * @param constraints conditions on the displacement, without hanging nodes
-   */
-  template <int dim>
-  std::vector<std::string>
-  free_rigid_motions(const Mapping<dim>              &mapping,
-                     const DoFHandler<dim>           &dof_handler,
-                     const AffineConstraints<double> &constraints,
-                     const bool                       axisymmetric);
-
-  /**
-   * The rigid motions as vectors of nodal values at the locally owned dofs:
-   * translations, then rotations about the center of gravity scaled to order
-   * one. In axisymmetry only the translation along the axis.
-   */
-  template <int dim>
-  std::vector<std::vector<double>>
-  rigid_motions(const Mapping<dim>    &mapping,
-                const DoFHandler<dim> &dof_handler,
-                const IndexSet        &dofs,
-                const bool             axisymmetric);
 } // namespace Signoton
 
 #endif

@@ -1,9 +1,10 @@
 #ifndef signoton_discretization_space_h
 #define signoton_discretization_space_h
 
-#include <signoton/discretization/boundary_conditions.h>
+#include <signoton/discretization/held_nodes.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
@@ -30,7 +31,7 @@ namespace Signoton
     distribute_dofs();
 
     /** Collect hanging nodes, periodicity and the conditions at the boundary
-     *  as they are at the time last set. */
+     *  with the values at the time last set. */
     void
     update_constraints(const BoundaryConditions<dim> &conditions);
 
@@ -57,6 +58,8 @@ namespace Signoton
     QGauss<dim>                               quadrature;
     DoFHandler<dim>                           dof_handler;
     IndexSet                                  relevant_dofs;
+    /** Nodes with conditions at the boundary, of the present mesh. */
+    HeldNodes<dim> held;
     /** Everything that restricts the displacement. */
     AffineConstraints<double> constraints;
     /** The same for increments: with zero right hand sides. */

@@ -16,18 +16,48 @@ namespace Signoton
   {
   public:
     /** A node that is not free: where its unknowns stand in the local part of
-     *  a vector, what is left of its accelerations, and how all its components
-     *  follow those that the constraints leave free: $u=Tu_\text{free}$ with
-     *  zero columns for the others. */
+     *  a vector; P and T of HeldNode. */
     struct Node
     {
       std::array<unsigned int, dim> index;
       Tensor<2, dim>                projector;
       Tensor<2, dim>                follow;
+
+      Tensor<1, dim>
+      read(const VectorType &vector) const
+      {
+        Tensor<1, dim> value;
+        for (unsigned int d = 0; d < dim; ++d)
+          value[d] = vector.local_element(index[d]);
+        return value;
+      }
+
+      void
+      write(const Tensor<1, dim> &value, VectorType &vector) const
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          vector.local_element(index[d]) = value[d];
+      }
+
+      /** The part of a vector that the conditions determine. */
+      Tensor<1, dim>
+      held_part(const VectorType &vector) const
+      {
+        const Tensor<1, dim> value = read(vector);
+        return value - projector * value;
+      }
+
+      /** Set this part, and leave the rest. */
+      void
+      set_held_part(const Tensor<1, dim> &part, VectorType &vector) const
+      {
+        write(projector * read(vector) + part, vector);
+      }
     };
 
     /** Collect the nodes of the current mesh. The constraints of the space
-     *  must be those of the conditions. */
+     *  must be those of the conditions. Both arguments must outlive the
+     *  present mesh. */
     void
     reinit(const Space<dim> &space, const BoundaryConditions<dim> &conditions);
 
@@ -35,21 +65,25 @@ namespace Signoton
     void
     project(VectorType &acceleration) const;
 
+    /** Take away velocity against supports that are at rest. */
+    void
+    stop(VectorType &velocity) const;
+
     /** Let the forces on components that follow others act on those: $T^Tf$. */
     void
     condense(VectorType &force) const;
 
-    /** Set the prescribed components of the velocity, constant over a step,
-     *  such that the displacement is the prescribed one at its end.
+    /** Set the velocity that conditions prescribe, constant over a step, such
+     *  that the displacement is the prescribed one at its end.
      *  @param displacement at the begin of the step
      *  @param time at the begin of the step */
     void
     move(const VectorType &displacement,
          const double      time,
          const double      time_step,
-         VectorType       &velocity);
+         VectorType       &velocity) const;
 
-    /** Set the components with a prescribed displacement. */
+    /** Set the displacement that conditions on it prescribe. */
     void
     place(VectorType &displacement, const double time) const;
 
@@ -59,29 +93,19 @@ namespace Signoton
       return supported;
     }
 
-    /** Local indices of the components with a prescribed motion. */
-    std::vector<unsigned int>
-    moved() const;
+    /** Those of them with a prescribed motion. */
+    const std::vector<Node> &
+    moving() const
+    {
+      return moved;
+    }
 
   private:
-    /** A component with a prescribed displacement or velocity. */
-    struct Motion
-    {
-      unsigned int            index;
-      Point<dim>              point;
-      SpaceTimeFunction<dim> *function;
-      bool                    is_velocity;
-    };
-
-    std::vector<Node>   supported;
-    std::vector<Motion> motions;
+    std::vector<Node> supported, moved;
+    /** Where the moving ones stand in the space. */
+    std::vector<const HeldNode<dim> *> moved_by;
+    const BoundaryConditions<dim>     *conditions = nullptr;
   };
-
-  /** Unknowns of the nodes of a cell: entry d of node n is the number in the
-   *  cell of component d. */
-  template <int dim>
-  std::vector<std::array<unsigned int, dim>>
-  nodes_of_cell(const FiniteElement<dim> &fe);
 } // namespace Signoton
 
 #endif

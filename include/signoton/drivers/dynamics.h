@@ -126,12 +126,11 @@ namespace Signoton
       return is_told() || is_mesh_due();
     }
 
-    Model<dim>               &model;
-    RunOutput<dim>            output;
-    Supports<dim>             supports;
-    AbsorbingBoundary<dim>    absorbing;
-    Loads<dim>                loads;
-    std::vector<unsigned int> moved; ///< unknowns with a prescribed motion
+    Model<dim>            &model;
+    RunOutput<dim>         output;
+    Supports<dim>          supports;
+    AbsorbingBoundary<dim> absorbing;
+    Loads<dim>             loads;
 
     VectorType   displacement, velocity, acceleration;
     VectorType   mass, inverse_mass;
@@ -260,6 +259,11 @@ namespace Signoton
     /** Statistics, fields and screen, as often as each is due. */
     void
     report();
+
+    /** What the supports do to the body, see reaction_columns(). Sets the time
+     *  of the conditions to the next step. */
+    VectorType
+    support_forces() const;
 
     void
     add_statistics(const VectorType &u, const VectorType &v);

@@ -53,7 +53,6 @@ namespace Signoton
     using Dynamics<dim>::model;
     using Dynamics<dim>::supports;
     using Dynamics<dim>::absorbing;
-    using Dynamics<dim>::moved;
     using Dynamics<dim>::displacement;
     using Dynamics<dim>::velocity;
     using Dynamics<dim>::acceleration;

@@ -9,13 +9,14 @@ namespace Signoton
   /** What is known of an accepted step. */
   struct StepRecord
   {
-    double              time      = 0.;
-    double              step_size = 0.;
-    EnergyBalance       balance;
-    double              external_work   = 0.; ///< of the step, in J
-    double              transfer_drift  = 0.; ///< of stored energy, in J
-    double              estimated_error = 0.; ///< 0 without refinement
-    std::vector<double> reactions; ///< dim entries for each condition
+    double        time      = 0.;
+    double        step_size = 0.;
+    EnergyBalance balance;
+    double        external_work   = 0.; ///< of the step, in J
+    double        transfer_drift  = 0.; ///< of stored energy, in J
+    double        estimated_error = 0.; ///< 0 without refinement
+    /** Columns, see reaction_columns(). */
+    std::vector<std::pair<std::string, double>> reactions;
     /** One for each mesh and each binder of a continuation; the last one led
      *  to the accepted state. */
     std::vector<NewtonResult> solves;

@@ -62,14 +62,9 @@ namespace Signoton
     predict(VectorType &u, const VectorType &lift, const double regularization);
 
     /** Internal force minus loads with the entries of constrained unknowns:
-     *  the forces of the supports. */
+     *  the forces of the supports, see reaction_columns(). */
     VectorType
     support_forces(const VectorType &u);
-
-    /** Sum of the forces of the supports at each boundary condition in N (per
-     *  metre in plane strain). */
-    std::vector<Tensor<1, dim>>
-    reactions(const VectorType &u);
 
     /** Internal force before the elimination of constraints. */
     VectorType
