@@ -164,6 +164,17 @@ namespace Signoton
 
   template <int dim>
   bool
+  StaticProblem<dim>::follows_supports(const VectorType &u) const
+  {
+    double prescribed = 0.;
+    for (const auto &line : model.space->constraints.get_lines())
+      prescribed = std::max(prescribed, std::abs(line.inhomogeneity));
+    return u.linfty_norm() <=
+           2. * Utilities::MPI::max(prescribed, model.communicator);
+  }
+
+  template <int dim>
+  bool
   StaticProblem<dim>::is_linear() const
   {
     return !(model.is_dynamic && model.time_integration.shock_viscosity) &&

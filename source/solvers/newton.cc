@@ -104,23 +104,19 @@ namespace Signoton
   {
     /** Whether the residual of a linear problem is at its round-off; if so, the
      *  result says it. A body that flows away has large displacements and with
-     *  them round-off, but no answer. Where all forces are round-off, as in a
-     *  rigid motion of the supports, there are no digits to ask for.
-     *  @param scale of the forces */
+     *  them round-off, but no answer; one that only follows its supports has no
+     *  forces but round-off, and there are no digits to ask for. */
     bool
     accept_round_off(ConvexProblem                   &problem,
                      const ConvexProblem::VectorType &x,
                      const double                     norm,
-                     const double                     scale,
                      NewtonResult                    &result)
     {
       constexpr double least_digits = 1e-6;
-      if (!problem.is_linear())
-        return false;
-      const double round_off = problem.round_off(x);
-      result.at_round_off =
-        norm <= round_off &&
-        (result.history.back().residual <= least_digits || scale <= round_off);
+      result.at_round_off           = problem.is_linear() &&
+                            norm <= problem.round_off(x) &&
+                            (result.history.back().residual <= least_digits ||
+                             problem.follows_supports(x));
       result.converged = result.at_round_off;
       return result.converged;
     }
@@ -151,7 +147,7 @@ namespace Signoton
             result.converged = true;
             return result;
           }
-        if (iteration > 0 && accept_round_off(problem, x, norm, scale, result))
+        if (iteration > 0 && accept_round_off(problem, x, norm, result))
           return result;
         if (iteration == parameters.maximum_iterations)
           {
@@ -207,11 +203,11 @@ namespace Signoton
               }
             // where there is no decrease any more there may be none to find
             if (next.linear_solves == 2 &&
-                accept_round_off(problem, x, norm, scale, result))
+                accept_round_off(problem, x, norm, result))
               return result;
             if (rho > 2.)
               {
-                if (!accept_round_off(problem, x, norm, scale, result))
+                if (!accept_round_off(problem, x, norm, result))
                   result.reason = linear.reason;
                 return result;
               }

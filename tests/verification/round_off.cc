@@ -1,12 +1,13 @@
 // Elastic bodies whose loads are far below the forces of their elements, and
 // grains that bear nothing at all: each has an answer, and linear bodies have it
-// after one iteration. Cantilevers of 100 and 1000 to 1 against the theory of
+// after one iteration; a body that flies off has none. Cantilevers of 100 and 1000 to 1 against the theory of
 // Timoshenko, columns of two layers whose moduli differ up to 1e8 times against
-// their weight, lifted grains.
+// their weight, lifted grains, blocks that follow their supports.
 
 #include "verification.h"
 
 using namespace Verification;
+using Signoton::ExitStatus;
 using Signoton::SceneFile;
 
 namespace
@@ -126,6 +127,69 @@ namespace
                    value(line, "traction " + up + " at top") / 1e8,
                    1e-12);
   }
+  /** A block that its supports carry along, and a second one that nothing
+   *  holds: an answer only if nothing pulls at it. */
+  void
+  carried(Report &report)
+  {
+    for (const int dim : {2, 3})
+      for (const std::string motion : {"1/3", "1e-3"})
+        {
+          SceneFile file =
+            box(dim == 2 ? "4, 4 : 0, 0 : 1, 1" : "4, 4, 4 : 0, 0, 0 : 1, 1, 1",
+                "1e6");
+          file.set({}, "Dimension", std::to_string(dim));
+          file.set({"Materials", "m"}, "Poisson ratio", "0.3");
+          file.set({"Discretization"}, "Degree", "1");
+          const std::string sides[] = {"left",
+                                       dim == 2 ? "bottom" : "front",
+                                       "bottom"},
+                            axes[]  = {"x", "y", "z"};
+          for (int d = 0; d < dim; ++d)
+            file.set({"Boundaries", sides[d]},
+                     "Displacement " + axes[d],
+                     motion);
+          file.set({"Output"},
+                   "Probe points",
+                   dim == 2 ? "0.7, 0.8" : "0.7, 0.8, 0.9");
+          const auto line = run(file).back();
+          for (int d = 0; d < dim; ++d)
+            report.require("carried by " + motion + " along " + axes[d],
+                           value(line,
+                                 "displacement " + axes[d] + " at probe 1") /
+                               (motion == "1/3" ? 1. / 3. : 1e-3) -
+                             1.,
+                           1e-9);
+        }
+
+    std::ofstream("two.geo")
+      << "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1};\n"
+         "Rectangle(2) = {2, 0, 0, 1, 1};\n"
+         "Transfinite Surface{1, 2}; Recombine Surface{1, 2};\n"
+         "Transfinite Curve{1:8} = 4;\n"
+         "Physical Surface(\"both\", 1) = {1, 2};\n"
+         "Physical Curve(\"left\", 1) = {4};\n"
+         "Physical Curve(\"free\", 2) = {6};\n";
+    SceneFile two = box("1, 1 : 0, 0 : 1, 1", "1e6");
+    two.remove({"Geometry"}, "");
+    two.set({"Geometry"}, "Mesh file", "two.geo");
+    two.set({"Materials", "m"}, "Material id", "1");
+    two.set({"Load steps"}, "Minimum step size", "0.5");
+    for (const std::string motion : {"0", "1"})
+      for (const std::string pressure : {"1", "-1e-3"})
+        {
+          two.set({"Boundaries", "left"}, "Displacement x", motion);
+          two.set({"Boundaries", "left"}, "Displacement y", "0");
+          two.set({"Boundaries", "free"}, "Pressure", pressure);
+          std::ofstream("two.prm") << two.text();
+          report.require("a block pushed by " + pressure +
+                           " beside one that is moved by " + motion,
+                         attempt("two.prm", {}) == ExitStatus::no_equilibrium ?
+                           0. :
+                           1.,
+                         0.);
+        }
+  }
 } // namespace
 
 int
@@ -143,5 +207,6 @@ main(int argc, char **argv)
       lifted_grains(report, dim, "1e-3*t");
       lifted_grains(report, dim, "if(t < 1, -1e-3*t, 2e-3*t - 3e-3)");
     }
+  carried(report);
   return report.status();
 }

@@ -47,6 +47,9 @@ namespace Signoton
     double
     round_off(const VectorType &u) override;
 
+    bool
+    follows_supports(const VectorType &u) const override;
+
     LinearResult
     solve(const VectorType &rhs,
           VectorType       &du,

@@ -51,6 +51,15 @@ namespace Signoton
     virtual double
     round_off(const VectorType &x) = 0;
 
+    /** Whether @p x is as large as what is prescribed of it, so that there may
+     *  be no forces to compare with. */
+    virtual bool
+    follows_supports(const VectorType &x) const
+    {
+      (void)x;
+      return false;
+    }
+
     /** Solve (tangent + regularization * elastic tangent) @p dx = @p rhs. */
     virtual LinearResult
     solve(const VectorType &rhs,
