@@ -98,7 +98,11 @@ namespace Verification
     Signoton::Options options;
     options.scene_file       = scene_file;
     options.output_directory = "results";
-    std::filesystem::remove_all("results");
+    // the others have read the last ones, and do not find them any more
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::filesystem::remove_all("results");
+    MPI_Barrier(MPI_COMM_WORLD);
     options.overrides = overrides;
     const bool is_dynamic =
       Signoton::SceneFile::read(scene_file).value({}, "Analysis") == "dynamics";
