@@ -5,11 +5,7 @@
 # usage: boundary_notes.sh SIGNOTON
 set -eu
 signoton=$1
-. "$(dirname "$0")/../tools/mpi_environment.sh"
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-cd "$dir"
-problems=0
+. "$(dirname "$0")/../tools/shell_test.sh"
 
 cat >block.prm <<'SCENE'
 subsection Geometry
@@ -51,11 +47,7 @@ notes() {
   for word in "${words[@]}"; do
     grep -qF -e "$word" out || good=0
   done
-  if [ $good = 0 ]; then
-    echo "expected $number notes, and '${words[*]}', but $*:"
-    cat out
-    problems=$((problems + 1))
-  fi
+  [ $good = 1 ] || complain "expected $number notes, and '${words[*]}', of $*"
 }
 
 y='Boundaries/top/Displacement y'
@@ -79,4 +71,4 @@ notes 1 1 'Pressure' '2100 of 2100 N per metre' -- \
   --set 'Boundaries/right/Displacement x=0' --set 'Boundaries/right/Pressure=700*t'
 notes 1 1 'left' 'the axis of revolution needs no support' "bottom 50.27 m^2" 'right 75.4 m^2' -- \
   --set 'Embedding=axisymmetric'
-[ $problems = 0 ]
+[ "$problems" = 0 ]

@@ -5,84 +5,61 @@
 set -eu
 signoton=$1
 source=$2
-. "$(dirname "$0")/../tools/mpi_environment.sh"
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-cd "$dir"
+. "$(dirname "$0")/../tools/shell_test.sh"
 scene=$source/tests/scenes/adaptive_granular.prm
-problems=0
 
-# expect STATUS 'WORDS OF THE MESSAGE' ARGUMENTS...
-expect() {
-  local status=$1 words=$2 found=0
-  shift 2
-  "$signoton" "$@" >out 2>&1 || found=$?
-  if [ "$found" != "$status" ] || ! grep -qF -e "$words" out; then
-    echo "signoton $*: status $found, expected $status with '$words', but:"
-    cat out
-    problems=$((problems + 1))
-  fi
-}
-
-expect 0 'mpirun -np N signoton' --help
-expect 0 'deal.II' --version
-expect 0 'set Rheology' --template statics
-expect 0 'subsection Program' --template point
-expect 2 'statics' --template statistics
-expect 2 'no scene file'
-expect 2 "unknown option '--explian'" --explian "$scene"
-expect 2 'one of them' "$scene" "$scene"
-expect 2 'one of them' --explain --validate "$scene"
-expect 2 'the directory alone' "$scene" --resume here
-expect 2 'the directory alone' --resume here --output there
-expect 2 'cannot be opened' "$source/prm"
-expect 2 "'--set' at the end" "$scene" --set
-expect 2 'absent.prm' absent.prm
-expect 2 "unknown key 'Degre'" "$scene" --set 'Discretization/Degre=1'
-expect 2 'Discretization / Degree' "$scene" --set 'Discretization/Degree=7'
-expect 2 '--set' "$scene" --set 'Discretization/Degree'
-expect 2 'absent/resolved.prm' --resume absent
+expect 0 'mpirun -np N signoton' "$signoton" --help
+expect 0 'deal.II' "$signoton" --version
+expect 0 'set Rheology' "$signoton" --template statics
+expect 0 'subsection Program' "$signoton" --template point
+expect 2 'statics' "$signoton" --template statistics
+expect 2 'no scene file' "$signoton"
+expect 2 "unknown option '--explian'" "$signoton" --explian "$scene"
+expect 2 'one of them' "$signoton" "$scene" "$scene"
+expect 2 'one of them' "$signoton" --explain --validate "$scene"
+expect 2 'the directory alone' "$signoton" "$scene" --resume here
+expect 2 'the directory alone' "$signoton" --resume here --output there
+expect 2 'cannot be opened' "$signoton" "$source/prm"
+expect 2 "'--set' at the end" "$signoton" "$scene" --set
+expect 2 'absent.prm' "$signoton" absent.prm
+expect 2 "unknown key 'Degre'" "$signoton" "$scene" --set 'Discretization/Degre=1'
+expect 2 'Discretization / Degree' "$signoton" "$scene" --set 'Discretization/Degree=7'
+expect 2 '--set' "$signoton" "$scene" --set 'Discretization/Degree'
+expect 2 'absent/resolved.prm' "$signoton" --resume absent
 "$signoton" --template statics >template.prm
-expect 0 'The scene is valid' --validate template.prm
-expect 0 'Statistics by step' template.prm
-expect 0 'The scene is valid' --validate "$scene" --set 'Discretization/Degree=1'
-expect 2 'Materials' --validate "$scene" --set 'Materials/sand/Bulk modulus=-1'
+expect 0 'The scene is valid' "$signoton" --validate template.prm
+expect 0 'Statistics by step' "$signoton" template.prm
+expect 0 'The scene is valid' "$signoton" --validate "$scene" --set 'Discretization/Degree=1'
+expect 2 'Materials' "$signoton" --validate "$scene" --set 'Materials/sand/Bulk modulus=-1'
 piston=$source/prm/signoton_piston.prm
-expect 0 'central differences' --explain "$piston"
-expect 0 'generalized alpha' --explain "$piston" \
+expect 0 'central differences' "$signoton" --explain "$piston"
+expect 0 'generalized alpha' "$signoton" --explain "$piston" \
   --set 'Time integration/Scheme=implicit'
-expect 0 "'Newton' has no effect with Analysis = dynamics, Scheme = explicit" \
+expect 0 "'Newton' has no effect with Analysis = dynamics, Scheme = explicit" "$signoton" \
   --validate "$piston" --set 'Newton/Tolerance=1e-9'
-expect 0 'The scene is valid' --validate "$piston" \
+expect 0 'The scene is valid' "$signoton" --validate "$piston" \
   --set 'Newton/Tolerance=1e-9' --set 'Time integration/Scheme=implicit'
-expect 2 'folds along its curved boundary' --validate \
+expect 2 'folds along its curved boundary' "$signoton" --validate \
   "$source/tests/input/mesh_folds_when_refined.prm"
 "$signoton" --template point >point_template.prm
-expect 0 'point.csv' point point_template.prm
-expect 2 "'signoton point " "$source/prm/point/triaxial.prm"
-expect 2 "'signoton " point "$scene"
-expect 0 'closed form' --explain point "$source/prm/point/triaxial.prm"
+expect 0 'point.csv' "$signoton" point point_template.prm
+expect 2 "'signoton point " "$signoton" "$source/prm/point/triaxial.prm"
+expect 2 "'signoton " "$signoton" point "$scene"
+expect 0 'closed form' "$signoton" --explain point "$source/prm/point/triaxial.prm"
 
 for shipped in "$source"/prm/*.prm; do
   coarse=()
   [ "$(basename "$shipped")" = pulse_octant_3d.prm ] && # a million unknowns
     coarse=(--set 'Geometry/Arguments=7, 7, 7 : 0, 0, 0 : 1, 1, 1 : true')
-  expect 0 'Memory forecast' --explain "$shipped" "${coarse[@]}"
+  expect 0 'Memory forecast' "$signoton" --explain "$shipped" "${coarse[@]}"
   inertia=no
   grep -q '^ *set Analysis *= dynamics' "$shipped" && inertia=yes
-  grep -q "^inertia  *$inertia  *0 " out || {
-    echo "$shipped: --explain does not say that inertia is on: $inertia"
-    problems=$((problems + 1))
-  }
-  expect 0 'The scene is valid' --validate "$shipped" "${coarse[@]}"
+  check "$shipped: --explain does not say that inertia is on: $inertia" \
+    grep -q "^inertia  *$inertia  *0 " out
+  expect 0 'The scene is valid' "$signoton" --validate "$shipped" "${coarse[@]}"
 done
 
 # on more ranks, one message, and the same status
-status=0
-mpirun -np 2 "$signoton" "$scene" --set 'Discretization/Degree=7' >out 2>&1 ||
-  status=$?
-[ "$status" = 2 ] && [ "$(grep -c 'where:' out)" = 1 ] || {
-  echo "two ranks: status $status and $(grep -c 'where:' out) messages"
-  problems=$((problems + 1))
-}
-exit "$problems"
+expect 2 'where:' mpirun -np 2 "$signoton" "$scene" --set 'Discretization/Degree=7'
+check 'two ranks have more than one message' test "$(grep -c 'where:' out)" = 1
+[ "$problems" = 0 ]

@@ -4,11 +4,7 @@
 # usage: geometry_child.sh SIGNOTON
 set -eu
 signoton=$1
-. "$(dirname "$0")/../tools/mpi_environment.sh"
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-cd "$dir"
-problems=0
+. "$(dirname "$0")/../tools/shell_test.sh"
 
 square='n = 2;
 Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};
@@ -43,25 +39,10 @@ subsection Output
 end
 END
 
-# expect STATUS 'WORDS' COMMAND...
-expect() {
-  local status=$1 words=$2 found=0
-  shift 2
-  timeout 60 "$@" >out 2>&1 || found=$?
-  if [ "$found" != "$status" ] || ! grep -qF -e "$words" out; then
-    echo "$*: status $found, expected $status with '$words', but:"
-    cat out
-    problems=$((problems + 1))
-  fi
-}
-
 nothing_made() {
   sleep 0.2 # whatever may run in the background
-  if [ -e made ] || [ -e made.msh ]; then
-    echo "$1: a geometry wrote a file"
-    problems=$((problems + 1))
-    rm -f made made.msh
-  fi
+  check "$1: a geometry wrote a file" test ! -e made -a ! -e made.msh
+  rm -f made made.msh
 }
 
 echo "$square" >try.geo
@@ -75,17 +56,11 @@ done
 expect 2 'try.geo' "$signoton" --resume kept
 nothing_made --resume
 expect 2 'try.geo' mpirun -np 2 "$signoton" --validate scene.prm
-[ "$(grep -c 'where:' out)" = 1 ] || {
-  echo "two ranks: $(grep -c 'where:' out) messages"
-  problems=$((problems + 1))
-}
+check 'two ranks have more than one message' test "$(grep -c 'where:' out)" = 1
 nothing_made 'two ranks'
 { echo "SystemCall \"touch $dir/made\";"; echo "$square"; } >try.geo
 expect 0 'The scene is valid' "$signoton" --trust-geometry --validate scene.prm
-[ -e made ] || {
-  echo "--trust-geometry: the geometry executed nothing"
-  problems=$((problems + 1))
-}
+check '--trust-geometry: the geometry executed nothing' test -e made
 rm -f made
 
 { echo 'Exit;'; echo "$square"; } >try.geo
@@ -101,4 +76,4 @@ expect 2 'no such file' mpirun -np 2 "$signoton" --validate scene.prm \
 expect 2 'no file' "$signoton" --validate scene.prm --set 'Geometry/Mesh file=.'
 expect 2 'no file' "$signoton" --validate scene.prm \
   --set 'Geometry/Mesh file=/dev/zero'
-exit "$problems"
+[ "$problems" = 0 ]

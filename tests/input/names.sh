@@ -5,22 +5,8 @@
 # usage: names.sh SIGNOTON
 set -eu
 signoton=$1
-. "$(dirname "$0")/../tools/mpi_environment.sh"
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-cd "$dir"
-problems=0
+. "$(dirname "$0")/../tools/shell_test.sh"
 
-# check 'WHAT' COMMAND...
-check() {
-  local what=$1
-  shift
-  "$@" >/dev/null 2>&1 || {
-    echo "$what, but:"
-    cat out
-    problems=$((problems + 1))
-  }
-}
 says() { grep -qF -e "$1" out; }
 
 # scene WALL GROUND GRAIN POINT FLOOR CEILING TITLE: names as they stand in a scene
@@ -81,9 +67,9 @@ for ((i = 0; i < n; ++i)); do
   at() { echo "${names[$(((i + $1) % n))]}"; }
   scene "$(at 0)" "$(at 1)" "$(at 2)" "$(at 3)" "$(at 4)" "$(at 5)" "$(at 6)" >scene.prm
   place="results of $i; #, ü_ab \$(touch x) it's"
-  "$signoton" scene.prm --output "$place" >out 2>&1 || { cat out; cat scene.prm; problems=$((problems + 1)); }
+  expect 0 'Statistics by step' "$signoton" scene.prm --output "$place"
   # the resolved scene is the same one
-  "$signoton" "$place/resolved.prm" --output again >out 2>&1 || { cat out; problems=$((problems + 1)); }
+  expect 0 'Statistics by step' "$signoton" "$place/resolved.prm" --output again
   check "resolved.prm of names $i has other numbers" \
     [ "$(numbers "$place")" = "$(numbers again)" ]
   for k in 0 5; do # columns have the names, quotes doubled as everywhere
@@ -171,4 +157,4 @@ timeout 60 mpirun -np 1 "$signoton" scene.prm --output lone : \
 check 'an error of the second rank' [ $status = 2 ]
 check 'an error of the second rank' says 'On rank 1 alone'
 check 'one message' [ "$(grep -c where: out)" = 1 ]
-exit "$problems"
+[ "$problems" = 0 ]

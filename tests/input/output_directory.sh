@@ -6,35 +6,10 @@ set -eu
 signoton=$1
 scene=$2/tests/scenes/adaptive_granular.prm
 point=$2/prm/point/triaxial.prm
-. "$(dirname "$0")/../tools/mpi_environment.sh"
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-cd "$dir"
+. "$(dirname "$0")/../tools/shell_test.sh"
 quick=(--set 'Refinement/Cycles in first step=0' --set 'Refinement/Cycles per step=0'
   --set 'Discretization/Degree=1' --set 'Output/Probe lines=0, 0.5 : 1, 0.5 : 3'
   --set 'Output/Fields every=1' --set 'Output/Checkpoint every=1')
-problems=0
-
-# expect STATUS 'WORDS OF THE MESSAGE' COMMAND...
-expect() {
-  local status=$1 words=$2 found=0
-  shift 2
-  "$@" >out 2>&1 || found=$?
-  if [ "$found" != "$status" ] || ! grep -qF -e "$words" out; then
-    echo "$*: status $found, expected $status with '$words', but:"
-    cat out
-    problems=$((problems + 1))
-  fi
-}
-check() { # WHAT COMMAND...
-  local what=$1
-  shift
-  "$@" || {
-    echo "not so: $what"
-    ls -lR mine
-    problems=$((problems + 1))
-  }
-}
 
 # what only looks like results stays, run after run
 mkdir -p mine/line-drawings mine/fields-of-rye mine/checkpoint.of-mine
@@ -118,4 +93,4 @@ kill -9 "$pid"
 wait "$pid" || true
 expect 0 'Statistics by step' "$signoton" "$scene" "${quick[@]}" --output shared
 check 'lines of one run' test "$(grep -c '^1,' shared/statistics.csv)" = 1
-exit "$problems"
+[ "$problems" = 0 ]

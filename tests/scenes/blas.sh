@@ -5,17 +5,7 @@
 # usage: blas.sh SIGNOTON
 set -eu
 signoton=$1
-. "$(dirname "$0")/../tools/mpi_environment.sh"
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-cd "$dir"
-problems=0
-check() {
-  "${@:2}" || {
-    echo "wrong: $1"
-    problems=$((problems + 1))
-  }
-}
+. "$(dirname "$0")/../tools/shell_test.sh"
 
 # libraries that take the place of the machine's: the reference, which Debian
 # has in any case, and one that tells what it is asked
@@ -74,4 +64,4 @@ fi
 )
 check 'more than one thread' grep -qx 'threads 1' one
 check 'a wish for threads was overridden' test ! -s wish
-exit "$problems"
+[ "$problems" = 0 ]

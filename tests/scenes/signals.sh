@@ -8,10 +8,8 @@ set -eum # job control: background jobs do not ignore SIGINT
 signoton=$1
 scenes=$2
 tools=$(dirname "$0")/../tools
-. "$tools/mpi_environment.sh"
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-cat >"$dir/statics.prm" <<'END'
+. "$tools/shell_test.sh"
+cat >statics.prm <<'END'
 subsection Geometry
   set Generator = subdivided_hyper_rectangle
   set Arguments = 8, 8 : 0, 0 : 1, 1 : true
@@ -49,33 +47,26 @@ subsection Output
 end
 END
 
-problems=0
-complain() {
-  echo "$1"
-  cat "$dir/log"
-  problems=$((problems + 1))
-}
-
 # interrupted NAME SIGNAL TARGET RUN...: start a run, wait until it has taken
 # some steps, send the signal, and see how it ends
 interrupted() {
   local name=$1 signal=$2 target=$3 status=0 pid
   shift 3
-  rm -rf "$dir/$name"
-  "$@" --output "$dir/$name" >"$dir/log" 2>&1 &
+  rm -rf "$name"
+  "$@" --output "$name" >out 2>&1 &
   pid=$!
   while kill -0 "$pid" 2>/dev/null; do
-    [ "$(cat "$dir/$name/statistics.csv" 2>/dev/null | wc -l)" -gt 5 ] && break
+    [ "$(cat "$name/statistics.csv" 2>/dev/null | wc -l)" -gt 5 ] && break
     sleep 0.02
   done
   if [ "$target" = one ]; then
-    kill -"$signal" "$(pgrep -P "$pid" -f "$dir/$name" | head -1)" || true
+    kill -"$signal" "$(pgrep -P "$pid" -f "$name" | head -1)" || true
   else
     kill -"$signal" "$pid" || true
   fi
   wait "$pid" || status=$?
   [ "$status" = 7 ] || complain "$name: status $status after SIG$signal"
-  grep -q "SIG$signal ends the run" "$dir/log" ||
+  grep -q "SIG$signal ends the run" out ||
     complain "$name: SIG$signal is not named"
 }
 
@@ -83,17 +74,17 @@ interrupted() {
 whole() {
   local name=$1
   shift
-  "$@" --output "$dir/$name.whole" >"$dir/log" 2>&1 || complain "$name fails"
+  "$@" --output "$name.whole" >out 2>&1 || complain "$name fails"
 }
 same_end() {
-  mpirun -np "$2" "$signoton" --resume "$dir/$1" >"$dir/log" 2>&1 ||
+  mpirun -np "$2" "$signoton" --resume "$1" >out 2>&1 ||
     complain "$1 cannot be resumed"
-  "$tools/same_end.sh" "$dir/$1.whole/statistics.csv" "$dir/$1/statistics.csv" ||
+  "$tools/same_end.sh" "$1.whole/statistics.csv" "$1/statistics.csv" ||
     complain "$1 ends otherwise"
 }
 
-whole statics "$signoton" "$dir/statics.prm"
-interrupted statics USR1 all mpirun -np 2 "$signoton" "$dir/statics.prm"
+whole statics "$signoton" statics.prm
+interrupted statics USR1 all mpirun -np 2 "$signoton" statics.prm
 same_end statics 1
 
 explicit=("$signoton" "$scenes/moving_mesh.prm" --set 'Time integration/Statistics every=1'
@@ -112,16 +103,16 @@ interrupted implicit INT all "${implicit[@]}"
 same_end implicit 2
 
 # one material point: no checkpoint, but its table
-rm "$dir/log"
-"$signoton" --template point >"$dir/point.prm"
-"$signoton" point "$dir/point.prm" --set 'Time steps/Tolerance=0' \
-  --set 'Time steps/Largest step=1e-6' --output "$dir/point" >"$dir/log" 2>&1 &
+rm out
+"$signoton" --template point >point.prm
+"$signoton" point point.prm --set 'Time steps/Tolerance=0' \
+  --set 'Time steps/Largest step=1e-6' --output point >out 2>&1 &
 pid=$!
-while kill -0 "$pid" 2>/dev/null && [ ! -s "$dir/log" ]; do sleep 0.02; done
+while kill -0 "$pid" 2>/dev/null && [ ! -s out ]; do sleep 0.02; done
 sleep 0.2
 kill -TERM "$pid" || true
 status=0
 wait "$pid" || status=$?
-[ "$status" = 7 ] && [ "$(wc -l <"$dir/point/point.csv")" -gt 2 ] ||
+[ "$status" = 7 ] && [ "$(wc -l <point/point.csv)" -gt 2 ] ||
   complain "point: status $status"
-exit "$problems"
+[ "$problems" = 0 ]
