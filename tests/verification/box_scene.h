@@ -7,14 +7,6 @@ namespace Verification
 {
   using Signoton::SceneFile;
 
-  inline std::string
-  text(const double number)
-  {
-    std::ostringstream stream;
-    stream << std::setprecision(17) << number;
-    return stream.str();
-  }
-
   /**
    * A unit square or cube as a scene: one cell, or @p n cells along each edge
    * with displaced inner vertices. The vertical axis is the last one: the

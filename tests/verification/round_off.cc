@@ -12,14 +12,6 @@ using Signoton::SceneFile;
 
 namespace
 {
-  std::string
-  text(const double number)
-  {
-    std::ostringstream stream;
-    stream << std::setprecision(17) << number;
-    return stream.str();
-  }
-
   SceneFile
   box(const std::string &arguments, const std::string &young_modulus)
   {

@@ -13,14 +13,6 @@ using Signoton::SceneFile;
 namespace
 {
   std::string
-  text(const double number)
-  {
-    std::ostringstream stream;
-    stream << std::setprecision(17) << number;
-    return stream.str();
-  }
-
-  std::string
   title(const std::string &what, const double e0, const double lambda)
   {
     std::ostringstream stream;

@@ -202,14 +202,12 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
-  silence_others(report);
-  for (const Kind &kind : kinds())
-    for (const bool facets : {false, true})
-      turning_ring(report, kind, facets);
-  kink(report);
-  for (const unsigned int degree : {1, 2})
-    axis(report, degree);
-  return report.status();
+  return Verification::main(argc, argv, [](Report &report) {
+    for (const Kind &kind : kinds())
+      for (const bool facets : {false, true})
+        turning_ring(report, kind, facets);
+    kink(report);
+    for (const unsigned int degree : {1, 2})
+      axis(report, degree);
+  });
 }

@@ -197,18 +197,6 @@ namespace Verification
     const int    dim;
     Tensor<2, 3> turn;
   };
-
-  /** Only the first rank writes the report. */
-  inline void
-  silence_others(Report &report)
-  {
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
-      {
-        report.out.close();
-        report.out.open("/dev/null");
-      }
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
 } // namespace Verification
 
 #endif

@@ -270,19 +270,17 @@ namespace
 int
 main(int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
-  silence_others(report);
-  for (const Kind &kind : kinds())
-    {
-      turned_wedge(report, kind);
-      pushed_wedge(report, kind);
-      reentrant(report, kind, "");
-      if (kind.analysis == "statics")
-        {
-          refined_wedge(report, kind);
-          reentrant(report, kind, "2");
-        }
-    }
-  return report.status();
+  return Verification::main(argc, argv, [](Report &report) {
+    for (const Kind &kind : kinds())
+      {
+        turned_wedge(report, kind);
+        pushed_wedge(report, kind);
+        reentrant(report, kind, "");
+        if (kind.analysis == "statics")
+          {
+            refined_wedge(report, kind);
+            reentrant(report, kind, "2");
+          }
+      }
+  });
 }

@@ -4,6 +4,7 @@
 #include "physical_numbers.h"
 
 #include <signoton/base/mpi_session.h>
+#include <signoton/base/number.h>
 #include <signoton/scene/scene.h>
 
 #include <deal.II/base/convergence_table.h>
@@ -79,16 +80,21 @@ namespace Verification
     std::string  missed;
   };
 
+  /** A number as scenes have it, with all digits. */
+  inline std::string
+  text(const double number)
+  {
+    return Signoton::number_text(number);
+  }
+
   /** `Loads/Constants=...` with all digits. */
   inline std::string
   constants(const std::vector<std::pair<std::string, double>> &values)
   {
-    std::ostringstream text;
-    text << "Loads/Constants=" << std::setprecision(17);
-    for (unsigned int i = 0; i < values.size(); ++i)
-      text << (i > 0 ? ", " : "") << values[i].first << " = "
-           << values[i].second;
-    return text.str();
+    std::string list;
+    for (const auto &[name, number] : values)
+      list += (list.empty() ? "" : ", ") + name + " = " + text(number);
+    return "Loads/Constants=" + list;
   }
 
   /** Run a scene; how it ends. */
@@ -211,12 +217,19 @@ namespace Verification
     return "Discretization/Degree=" + std::to_string(p);
   }
 
-  /** Runs a test: prints what stops it. */
+  /** Runs a test: prints what stops it, on all ranks. The first one reports. */
   inline int
   main(int argc, char **argv, const std::function<void(Report &)> &test)
   {
     Signoton::MPISession mpi(argc, argv);
     Report               report;
+    const bool is_first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    if (!is_first)
+      {
+        report.out.close();
+        report.out.open("/dev/null");
+      }
+    MPI_Barrier(MPI_COMM_WORLD);
     try
       {
         test(report);
@@ -224,6 +237,10 @@ namespace Verification
     catch (const std::exception &error)
       {
         report.out << error.what() << std::endl;
+        std::cerr << error.what() << std::endl;
+        // the other ranks would wait for this one
+        if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+          MPI_Abort(MPI_COMM_WORLD, 1);
         return 1;
       }
     return report.status();
