@@ -1,5 +1,5 @@
-#include <signoton/base/number.h>
 #include <signoton/base/function.h>
+#include <signoton/base/number.h>
 #include <signoton/drivers/run_checks.h>
 
 #include <algorithm>

@@ -335,8 +335,8 @@ namespace Signoton
     constexpr unsigned int n_tangent = n_tangent_entries<Embedding>(symmetric);
     const bool             with_tangent =
       tangent_offset[run.second] > tangent_offset[run.first];
-    const bool  shocked = !dilatation.empty();
-    const Shock shock   = shock_of(material_of_batch[run.first]);
+    const bool                 shocked = !dilatation.empty();
+    const Shock                shock   = shock_of(material_of_batch[run.first]);
     Rheology::Response<Number> response;
     auto   accepted = Rheology::make_history<Number>(law), next = accepted;
     double sum = 0.;
