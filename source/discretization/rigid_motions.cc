@@ -1,11 +1,10 @@
-#include <signoton/discretization/rigid_motions.h>
-
 #include <signoton/base/scene_file.h>
+#include <signoton/discretization/body_box.h>
+#include <signoton/discretization/rigid_motions.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe.h>
-#include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 namespace Signoton
@@ -37,22 +36,11 @@ namespace Signoton
   {
     std::map<types::global_dof_index, Point<dim>> points;
     DoFTools::map_dofs_to_support_points(mapping, dof_handler, points);
-    const auto box =
-      GridTools::compute_bounding_box(dof_handler.get_triangulation());
-    const MPI_Comm communicator = dof_handler.get_communicator();
-    Point<dim>     center;
-    double         size = 0.;
+    const auto box    = body_box(dof_handler.get_triangulation());
+    const auto center = box.center();
+    double     size   = 0.;
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double low =
-                       Utilities::MPI::min(box.get_boundary_points().first[d],
-                                           communicator),
-                     high =
-                       Utilities::MPI::max(box.get_boundary_points().second[d],
-                                           communicator);
-        center[d] = 0.5 * (low + high);
-        size      = std::max(size, 0.5 * (high - low));
-      }
+      size = std::max(size, 0.5 * box.side_length(d));
 
     const unsigned int n_modes = motion_names(dim, axisymmetric).size();
     std::vector<std::vector<double>> modes(

@@ -1,7 +1,6 @@
 #include <signoton/base/number.h>
+#include <signoton/discretization/body_box.h>
 #include <signoton/scene/scene.h>
-
-#include <deal.II/grid/grid_tools.h>
 
 #include <cmath>
 
@@ -15,16 +14,8 @@ namespace Signoton
      *  ranks, where no function is likely to vanish by symmetry. */
     template <int dim>
     std::vector<Point<dim>>
-    sample_places(const Triangulation<dim> &mesh, const MPI_Comm &communicator)
+    sample_places(const BoundingBox<dim> &box)
     {
-      const auto corners =
-        GridTools::compute_bounding_box(mesh).get_boundary_points();
-      Point<dim> low, high;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          low[d]  = Utilities::MPI::min(corners.first[d], communicator);
-          high[d] = Utilities::MPI::max(corners.second[d], communicator);
-        }
       std::vector<Point<dim>> places(35);
       for (unsigned int i = 0; i < places.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
@@ -34,7 +25,7 @@ namespace Signoton
               side == 2 * d     ? 0. :
                     side == 2 * d + 1 ? 1. :
                                         std::fmod(0.31 + (0.618 + 0.131 * d) * i, 1.);
-            places[i][d] = low[d] + part * (high[d] - low[d]);
+            places[i][d] = box.lower_bound(d) + part * box.side_length(d);
           }
       return places;
     }
@@ -64,15 +55,19 @@ namespace Signoton
         model.times_to_meet.add(time);
       }
 
-    model.load_watch.places =
-      sample_places(model.space->mesh, model.communicator);
+    const auto places = sample_places(body_box(model.space->mesh));
+    const bool watches =
+      model.is_dynamic && model.time_integration.is_implicit();
+    if (watches)
+      model.load_watch.places = places;
     const auto look = [&](const std::unique_ptr<SpaceTimeFunction<dim>> &f,
                           const std::string                             &at) {
       std::vector<Kink> kinks;
       if (f && f->varies())
         {
-          kinks = f->kinks(start, end, model.load_watch.places);
-          model.load_watch.add(*f, start, end);
+          kinks = f->kinks(start, end, places);
+          if (watches)
+            model.load_watch.add(*f, start, end);
         }
       if (kinks.size() > most_kinks)
         {

@@ -24,8 +24,8 @@ namespace Signoton
 
   /**
    * The rigid motions as vectors of nodal values at the locally owned dofs:
-   * translations, then rotations about the center of gravity scaled to order
-   * one. In axisymmetry only the translation along the axis.
+   * translations, then rotations about the center of the box around the body,
+   * scaled to order one. In axisymmetry only the translation along the axis.
    */
   template <int dim>
   std::vector<std::vector<double>>
