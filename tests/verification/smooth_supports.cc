@@ -115,7 +115,7 @@ namespace
         bool is_free = false;
         try
           {
-            solve(file);
+            run(file);
           }
         catch (const Signoton::UserError &error)
           {
@@ -130,7 +130,7 @@ namespace
              kind.dim == 2 ? "-y; x" :
              facets        ? "-y; x; 0" :
                              "0.3*z-y; x-0.2*z; 0.2*y-0.3*x");
-    const auto   lines = solve(file);
+    const auto   lines = run(file);
     const double first = value(lines.front(), "kinetic energy");
     report.require(name + ", kinetic energy",
                    value(lines.back(), "kinetic energy") / first - 1.,
@@ -158,7 +158,7 @@ namespace
                  "Boundary names",
                  "both: y < 0.6 && x < 1.5; end: 1; top: 3");
         file.set({"Output"}, "Probe points", "0, 0");
-        const auto         last = solve(file).back();
+        const auto         last = run(file).back();
         const Tensor<1, 3> u =
           vector_of(last, 2, "displacement ", " at probe 1");
         const double half =
@@ -187,7 +187,7 @@ namespace
     file.set({"Geometry"}, "Generator", "subdivided_hyper_rectangle");
     file.set({"Geometry"}, "Arguments", "3, 3 : 0, 0 : 1, 2 : true");
     file.set({"Output"}, "Probe points", "0, 1; 1, 2");
-    const auto        last = solve(file).back();
+    const auto        last = run(file).back();
     const std::string name = kind.name() + ", axis";
     report.require(name, value(last, "displacement x at probe 1"), 1e-15);
     report.require(name + ", widening",

@@ -11,19 +11,6 @@ namespace Verification
 {
   inline const std::array<std::string, 3> axes = {{"x", "y", "z"}};
 
-  /** Runs a scene on all ranks; the statistics of all its steps. */
-  inline std::vector<PhysicalNumbers::Line>
-  solve(const SceneFile &scene)
-  {
-    const std::string name =
-      "scene" +
-      std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".prm";
-    std::ofstream(name) << scene.text();
-    const auto lines = run(name, {});
-    MPI_Barrier(MPI_COMM_WORLD); // before the next run removes them
-    return lines;
-  }
-
   inline Tensor<1, 3>
   vector_of(const PhysicalNumbers::Line &line,
             const int                    dim,

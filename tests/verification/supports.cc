@@ -84,7 +84,7 @@ namespace
           kind.reversed = reversed;
           const std::string name =
             kind.name() + (turned ? ", turned wedge" : ", wedge");
-          const auto  lines = solve(wedge_scene(kind, turned));
+          const auto  lines = run(wedge_scene(kind, turned));
           const auto &last  = lines.back();
           report.require(
             name + ", displacement of the corner",
@@ -150,7 +150,7 @@ namespace
     if (kind.dim == 2)
       {
         file.set({"Output"}, "Probe points", probes);
-        const auto last = solve(file).back();
+        const auto last = run(file).back();
         for (unsigned int i = 0; i <= n; ++i)
           {
             const Tensor<1, 3> u = vector_of(
@@ -160,7 +160,7 @@ namespace
                            1e-13 + 1e-11 * u.norm()); // of 12 digits
           }
       }
-    const auto last            = solve(file).back();
+    const auto last            = run(file).back();
     const auto [force, moment] = wedge.load();
     report.require(kind.name() + ", forces of a refined wedge",
                    (sum_of(last, kind.dim, "reaction") + force).norm(),
@@ -189,7 +189,7 @@ namespace
         file.set({"Output"},
                  "Probe points",
                  kind.dim == 2 ? "0, 0" : "0, 0, 0");
-        const auto         last = solve(file).back();
+        const auto         last = run(file).back();
         const Tensor<1, 3> u =
           vector_of(last, kind.dim, "displacement ", " at probe 1");
         const Tensor<1, 3> expected({0.01, -0.01 / std::sqrt(3.), 0.});
@@ -242,7 +242,7 @@ namespace
             file.set({"Refinement"}, "Cycles in first step", cycles);
             file.set({"Refinement"}, "Refine fraction", "0.1");
           }
-        last[by_components] = solve(file).back();
+        last[by_components] = run(file).back();
       }
     const std::string name = kind.name() + ", re-entrant";
     report.require(

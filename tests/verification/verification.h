@@ -126,12 +126,15 @@ namespace Verification
     return PhysicalNumbers::read("results/statistics.csv");
   }
 
-  /** The same with a scene that the test has made. */
+  /** The same with a scene that the test has made, each rank for itself. */
   inline std::vector<PhysicalNumbers::Line>
   run(const Signoton::SceneFile &scene, const Overrides &overrides = {})
   {
-    std::ofstream("scene.prm") << scene.text();
-    return run("scene.prm", overrides);
+    const std::string name =
+      "scene" +
+      std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".prm";
+    std::ofstream(name) << scene.text();
+    return run(name, overrides);
   }
 
   /** Bisection: the root of @p f between @p a and @p b. */
