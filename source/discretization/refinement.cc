@@ -2,7 +2,6 @@
 #include <signoton/discretization/refinement.h>
 
 #include <deal.II/distributed/grid_refinement.h>
-#include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <optional>
@@ -79,44 +78,6 @@ namespace Signoton
     return (step - 1) % every == 0 ? cycles_per_step : 0;
   }
 
-  namespace
-  {
-    /** Tractions of an interpolated stress field on one side of a face. */
-    template <int dim>
-    class FaceTraction
-    {
-    public:
-      FaceTraction(const VectorType  &stress,
-                   const unsigned int n_components,
-                   const unsigned int n_points)
-        : values(n_points)
-        , stress(stress)
-        , raw(n_points, Vector<double>(n_components))
-      {}
-
-      const std::vector<Tensor<1, dim>> &
-      evaluate(const FEFaceValuesBase<dim>       &face,
-               const std::vector<Tensor<1, dim>> &normals)
-      {
-        face.get_function_values(stress, raw);
-        for (unsigned int q = 0; q < values.size(); ++q)
-          {
-            SymmetricTensor<2, dim> sigma;
-            for (unsigned int c = 0; c < raw[q].size(); ++c)
-              sigma.access_raw_entry(c) = raw[q][c];
-            values[q] = sigma * normals[q];
-          }
-        return values;
-      }
-
-      std::vector<Tensor<1, dim>> values;
-
-    private:
-      const VectorType           &stress;
-      std::vector<Vector<double>> raw;
-    };
-  } // namespace
-
   template <int dim>
   Tensor<1, dim>
   missing_traction(const BoundaryCondition<dim> *condition,
@@ -140,113 +101,6 @@ namespace Signoton
     if (condition->symmetry)
       missing -= (missing * normal) * normal;
     return missing;
-  }
-
-  template <int dim>
-  Vector<float>
-  Refinement::traction_jumps(
-    const Space<dim>                                             &space,
-    const PointSpace<dim>                                        &points,
-    const VectorType                                             &stress,
-    const BoundaryConditions<dim>                                &conditions,
-    const boost::container::flat_map<types::material_id, double> &shear_modulus)
-  {
-    const QGauss<dim - 1> quadrature(space.degree + 1);
-    const auto            flags = update_values | update_quadrature_points |
-                       update_JxW_values | update_normal_vectors;
-    FEFaceValues<dim>    here(space.mapping, points.fe, quadrature, flags);
-    FESubfaceValues<dim> here_part(space.mapping, points.fe, quadrature, flags);
-    FEFaceValues<dim>    there(space.mapping,
-                            points.fe,
-                            quadrature,
-                            update_values);
-    FESubfaceValues<dim> there_part(space.mapping,
-                                    points.fe,
-                                    quadrature,
-                                    update_values);
-    FaceTraction<dim>    mine(stress, points.n_components, quadrature.size());
-    FaceTraction<dim>    other(stress, points.n_components, quadrature.size());
-    boost::container::flat_map<types::boundary_id,
-                               const BoundaryCondition<dim> *>
-      by_id;
-    for (const auto &condition : conditions)
-      by_id[condition.id] = &condition;
-
-    const auto square = [&](const FEFaceValuesBase<dim>       &values,
-                            const std::vector<Tensor<1, dim>> &mine,
-                            const std::vector<Tensor<1, dim>> &other) {
-      double sum = 0.;
-      for (unsigned int q = 0; q < mine.size(); ++q)
-        sum += (mine[q] - other[q]).norm_square() *
-               space.weight(values.quadrature_point(q)) * values.JxW(q);
-      return sum;
-    };
-
-    Vector<float>                     indicators(space.mesh.n_active_cells());
-    const std::vector<Tensor<1, dim>> none(quadrature.size());
-    for (const auto &cell : points.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          double sum = 0.;
-          for (const auto f : cell->face_indices())
-            {
-              const double h = cell->face(f)->diameter() /
-                               shear_modulus.at(cell->material_id());
-              if (cell->at_boundary(f))
-                {
-                  if (cell->has_periodic_neighbor(f))
-                    continue;
-                  here.reinit(cell, f);
-                  mine.evaluate(here, here.get_normal_vectors());
-                  const auto found = by_id.find(cell->face(f)->boundary_id());
-                  for (unsigned int q = 0; q < mine.values.size(); ++q)
-                    mine.values[q] =
-                      missing_traction(found == by_id.end() ? nullptr :
-                                                              found->second,
-                                       here.quadrature_point(q),
-                                       here.normal_vector(q),
-                                       mine.values[q]);
-                  sum += 0.5 * h * square(here, mine.values, none);
-                }
-              else if (cell->face(f)->has_children())
-                for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
-                  {
-                    here_part.reinit(cell, f, s);
-                    const auto child = cell->neighbor_child_on_subface(f, s);
-                    there.reinit(child, cell->neighbor_face_no(f));
-                    const auto &n = here_part.get_normal_vectors();
-                    sum += 0.25 * h *
-                           square(here_part,
-                                  mine.evaluate(here_part, n),
-                                  other.evaluate(there, n));
-                  }
-              else
-                {
-                  here.reinit(cell, f);
-                  const auto &n = here.get_normal_vectors();
-                  mine.evaluate(here, n);
-                  const auto neighbor = cell->neighbor(f);
-                  if (cell->neighbor_is_coarser(f))
-                    {
-                      const auto where = cell->neighbor_of_coarser_neighbor(f);
-                      there_part.reinit(neighbor, where.first, where.second);
-                      sum += 0.25 * h *
-                             square(here,
-                                    mine.values,
-                                    other.evaluate(there_part, n));
-                    }
-                  else
-                    {
-                      there.reinit(neighbor, cell->neighbor_of_neighbor(f));
-                      sum +=
-                        0.25 * h *
-                        square(here, mine.values, other.evaluate(there, n));
-                    }
-                }
-            }
-          indicators[cell->active_cell_index()] = sum;
-        }
-    return indicators;
   }
 
   template <int dim>
@@ -300,9 +154,11 @@ namespace Signoton
           const unsigned int i        = cell->active_cell_index();
           bool               switches = mixed[i];
           for (const auto f : cell->face_indices())
-            if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
-              switches |= all_regions[cell->neighbor(f)->active_cell_index()] !=
-                          region[i];
+            if (!cell->at_boundary(f) || cell->has_periodic_neighbor(f))
+              if (const auto other = cell->neighbor_or_periodic_neighbor(f);
+                  other->is_active())
+                switches |=
+                  all_regions[other->active_cell_index()] != region[i];
           if (switches)
             indicators[i] *= region_weight;
           // Half percent steps: cells that are equal by symmetry stay equal.
@@ -310,6 +166,15 @@ namespace Signoton
             indicators[i] =
               std::exp(std::round(200. * std::log(indicators[i])) / 200.);
         }
+
+    const float largest =
+      Utilities::MPI::max(indicators.linfty_norm(), space.communicator);
+    if (!(largest > 0.f))
+      return false;
+    // the search for thresholds is by powers, for which zero is too small
+    const float nothing = 1e-20f * largest;
+    for (float &value : indicators)
+      value = std::max(value, nothing);
 
     using namespace parallel::distributed::GridRefinement;
     const auto owned_cells_with = [&](const auto &property) {
@@ -353,7 +218,7 @@ namespace Signoton
         refine_and_coarsen_fixed_fraction(
           space.mesh, indicators, fraction, 0., VectorTools::NormType::L1_norm);
         for (const auto &cell : space.mesh.active_cell_iterators())
-          if (is_finest(cell))
+          if (!(indicators[cell->active_cell_index()] > nothing))
             cell->clear_refine_flag();
         refined = owned_cells_with(
           [](const auto &cell) { return cell->refine_flag_set(); });
@@ -372,12 +237,6 @@ namespace Signoton
   }
 
 #define INSTANTIATE(dim)                                                           \
-  template Vector<float> Refinement::traction_jumps<dim>(                          \
-    const Space<dim> &,                                                            \
-    const PointSpace<dim> &,                                                       \
-    const VectorType &,                                                            \
-    const BoundaryConditions<dim> &,                                               \
-    const boost::container::flat_map<types::material_id, double> &);               \
   template bool           Refinement::mark<dim>(Space<dim> &,                      \
                                       Vector<float> &,                   \
                                       const std::vector<unsigned int> &, \

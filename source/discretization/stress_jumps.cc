@@ -12,11 +12,13 @@ namespace Signoton
     const Space<dim>                           &space,
     const std::vector<SymmetricTensor<2, dim>> &mean_stress,
     const Function<dim>                        *initial_stress,
-    const boost::container::flat_map<types::material_id, double> &shear_modulus)
+    const boost::container::flat_map<types::material_id, double> &shear_modulus,
+    const double                                                  round_off)
     : values(mean_stress.size(), 0.)
     , space(space)
     , initial_stress(initial_stress)
     , shear_modulus(shear_modulus)
+    , round_off(round_off)
     , stress(mean_stress)
   {
     for (const auto &cell : space.mesh.active_cell_iterators())
@@ -64,6 +66,8 @@ namespace Signoton
   void
   StressJumps<dim>::enter(const Cell &cell, const Tensor<1, dim> &traction)
   {
+    if (traction.norm() <= round_off)
+      return;
     double &value = values[cell->active_cell_index()];
     value         = std::max(value,
                      traction.norm() /

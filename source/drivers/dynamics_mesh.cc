@@ -70,12 +70,14 @@ namespace Signoton
     const auto   timer = model.ledger.time("error estimate");
     auto        &space = *model.space;
     const double ahead = model.wave_refinement.interval() * time_step;
-    double       speed = 0.;
+    double       speed = 0., stiffness = 0.;
     boost::container::flat_map<types::material_id, double> shear_modulus;
     for (const auto &material : model.materials)
       {
-        speed = std::max(speed, material.longitudinal_speed());
-        shear_modulus[material.id] = material.elasticity().shear;
+        speed                = std::max(speed, material.longitudinal_speed());
+        const Moduli &moduli = material.elasticity();
+        shear_modulus[material.id] = moduli.shear;
+        stiffness = std::max(stiffness, moduli.bulk + 2. * moduli.shear);
       }
     // Pulses may be shorter than the time to the next look.
     constexpr unsigned int n_times = 8;
@@ -102,14 +104,24 @@ namespace Signoton
     model.mechanics->set_time_step(time_step);
     const auto averages = model.mechanics->cell_averages(u);
     std::vector<SymmetricTensor<2, dim>> stress(averages.size());
+    double                               largest = 0.;
     for (std::size_t cell = 0; cell < stress.size(); ++cell)
-      for (unsigned int c = 0; c < stress[cell].n_independent_components; ++c)
-        stress[cell].access_raw_entry(c) =
-          averages[cell].stress[dim == 2 && c == 2 ? 3 : c];
-    StressJumps<dim> jumps(space,
-                           stress,
-                           model.initial_stress.get(),
-                           shear_modulus);
+      {
+        for (unsigned int c = 0; c < stress[cell].n_independent_components; ++c)
+          stress[cell].access_raw_entry(c) =
+            averages[cell].stress[dim == 2 && c == 2 ? 3 : c];
+        largest = std::max(largest, stress[cell].norm());
+      }
+    // of stresses, and of strains, which are small differences where a body
+    // flies far
+    const double round_off =
+      1e-12 *
+      (Utilities::MPI::max(largest, model.communicator) +
+       stiffness * u.linfty_norm() /
+         Utilities::MPI::min(GridTools::minimal_cell_diameter(space.mesh),
+                             model.communicator));
+    StressJumps<dim> jumps(
+      space, stress, model.initial_stress.get(), shear_modulus, round_off);
     jumps.add_neighbors();
     for (unsigned int i = loads.vary() ? 0 : n_times - 1; i < n_times; ++i)
       {

@@ -1,3 +1,4 @@
+#include <signoton/discretization/traction_jumps.h>
 #include <signoton/drivers/checkpoint.h>
 #include <signoton/drivers/reactions.h>
 #include <signoton/drivers/statics.h>
@@ -105,11 +106,19 @@ namespace Signoton
       VectorType            stress = points.make_relevant_vector();
       model.mechanics->stress_field(trial, points, stress);
       stress.update_ghost_values();
-      boost::container::flat_map<types::material_id, double> shear_modulus;
+      ByMaterial shear_modulus, stiffness;
       for (const auto &material : model.materials)
-        shear_modulus[material.id] = material.elasticity().shear;
-      Vector<float> indicators = Refinement::traction_jumps(
-        space, points, stress, model.conditions, shear_modulus);
+        {
+          const Moduli &moduli       = material.elasticity();
+          shear_modulus[material.id] = moduli.shear;
+          stiffness[material.id]     = moduli.bulk + 2. * moduli.shear;
+        }
+      Vector<float> indicators =
+        traction_jumps(space, points, stress, model.conditions, shear_modulus);
+      VectorType u = space.make_relevant_vector();
+      u.copy_locally_owned_data_from(trial);
+      u.update_ghost_values();
+      drop_round_off(space, stress, u, shear_modulus, stiffness, indicators);
       double sum = 0.;
       for (const float value : indicators)
         sum += value;

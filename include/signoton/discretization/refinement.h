@@ -3,8 +3,6 @@
 
 #include <signoton/discretization/space.h>
 
-#include <boost/container/flat_map.hpp>
-
 namespace Signoton
 {
   /**
@@ -15,7 +13,8 @@ namespace Signoton
    * $\eta_K^2=\sum_{F\subset\partial K} c_F \frac{h_F}{2\mu}
    *  \|[\sigma]n\|_F^2$, $c_F=\frac12$ inside (Kelly et al., Int. J. Numer.
    * Meth. Eng. 19 (1983), in the energy scale). Cells in which the material
-   * switches its branch, or whose neighbor is in another one, count more.
+   * switches its branch, or whose neighbor is in another one, count more. See
+   * traction_jumps.h.
    */
   class Refinement
   {
@@ -52,18 +51,6 @@ namespace Signoton
       minimum_level = level;
     }
 
-    /** Squared indicators of the locally owned cells, by active cell index.
-     *  @param stress ghosted field of in-plane stresses at the points
-     *  @param shear_modulus by material id, in Pa */
-    template <int dim>
-    static Vector<float>
-    traction_jumps(const Space<dim>              &space,
-                   const PointSpace<dim>         &points,
-                   const VectorType              &stress,
-                   const BoundaryConditions<dim> &conditions,
-                   const boost::container::flat_map<types::material_id, double>
-                     &shear_modulus);
-
     /**
      * Set refinement and coarsening flags.
      * @param indicators from traction_jumps(); weighted and rounded here, so
@@ -72,7 +59,7 @@ namespace Signoton
      * @param region     by active cell, see Rheology::Region
      * @param mixed      whether points of a cell are in different regions
      * @return whether the mesh should change: cells are to be refined, or
-     *   enough of them to be coarsened
+     *   enough of them to be coarsened; not if all indicators are zero
      */
     template <int dim>
     bool

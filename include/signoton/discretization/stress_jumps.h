@@ -19,12 +19,14 @@ namespace Signoton
      * @param initial_stress whose change from cell to cell is none of a wave;
      *   nullptr for none. Components as in Mechanics::InitialState
      * @param shear_modulus  by material
+     * @param round_off      of the stresses in Pa: what jumps by less is at rest
      */
     StressJumps(const Space<dim>                           &space,
                 const std::vector<SymmetricTensor<2, dim>> &mean_stress,
                 const Function<dim>                        *initial_stress,
                 const boost::container::flat_map<types::material_id, double>
-                  &shear_modulus);
+                            &shear_modulus,
+                const double round_off);
 
     void
     add_neighbors();
@@ -52,6 +54,7 @@ namespace Signoton
     const Space<dim>    &space;
     const Function<dim> *initial_stress;
     const boost::container::flat_map<types::material_id, double> &shear_modulus;
+    const double                                                  round_off;
     std::vector<SymmetricTensor<2, dim>> stress; ///< but for the initial one
   };
 } // namespace Signoton
