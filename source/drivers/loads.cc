@@ -12,7 +12,9 @@ namespace Signoton
   Loads<dim>::reinit()
   {
     surface_load.reinit(*model.space, model.conditions);
-    point_forces.reinit(*model.space, model.point_forces);
+    point_forces.reinit(*model.space,
+                        model.point_forces,
+                        model.force_points.get());
   }
 
   template <int dim>

@@ -65,20 +65,15 @@ namespace Signoton
 
   template <int dim>
   void
-  PointForces<dim>::reinit(const Space<dim> &new_space, const List &new_list)
+  PointForces<dim>::reinit(const Space<dim>  &new_space,
+                           const List        &new_list,
+                           PointLocator<dim> *new_places)
   {
-    space = &new_space;
-    list  = &new_list;
-    if (list->empty())
-      return;
-    // one rank brings the forces, whichever has the cells
-    std::vector<Point<dim>> places;
-    if (Utilities::MPI::this_mpi_process(space->communicator) == 0)
-      for (const auto &force : *list)
-        places.push_back(force.place);
-    search =
-      std::make_unique<Utilities::MPI::RemotePointEvaluation<dim>>(1e-6, true);
-    search->reinit(places, space->mesh, space->mapping);
+    space  = &new_space;
+    list   = &new_list;
+    places = new_places;
+    if (places != nullptr)
+      places->places(); // complains early
   }
 
   template <int dim>
@@ -87,46 +82,29 @@ namespace Signoton
                         const AffineConstraints<double> &constraints,
                         VectorType                      &force) const
   {
-    const auto is_wanted = [&](const PointForce<dim> &point) {
-      return load_kind(point.varies) == kind;
-    };
-    if (list == nullptr || std::none_of(list->begin(), list->end(), is_wanted))
+    if (places == nullptr)
       return;
-    std::vector<Tensor<1, dim>> values, buffer;
-    if (Utilities::MPI::this_mpi_process(space->communicator) == 0)
-      for (const auto &point : *list)
-        {
-          values.emplace_back();
-          if (is_wanted(point))
-            for (unsigned int d = 0; d < dim; ++d)
-              values.back()[d] = point.force->value(point.place, d);
-        }
     const auto                          &fe = space->fe;
     Vector<double>                       cell_force(fe.n_dofs_per_cell());
     std::vector<types::global_dof_index> dofs(cell_force.size());
-    search->template process_and_evaluate<Tensor<1, dim>>(
-      values,
-      buffer,
-      [&](const ArrayView<const Tensor<1, dim>> &at_points, const auto &data) {
-        for (unsigned int c = 0; c < data.cells.size(); ++c)
-          {
-            const typename DoFHandler<dim>::active_cell_iterator cell(
-              &space->mesh,
-              data.cells[c].first,
-              data.cells[c].second,
-              &space->dof_handler);
-            cell_force = 0.;
-            for (unsigned int q = data.reference_point_ptrs[c];
-                 q < data.reference_point_ptrs[c + 1];
-                 ++q)
-              for (unsigned int i = 0; i < cell_force.size(); ++i)
-                cell_force[i] +=
-                  fe.shape_value(i, data.reference_point_values[q]) *
-                  at_points[q][fe.system_to_component_index(i).first];
-            cell->get_dof_indices(dofs);
-            constraints.distribute_local_to_global(cell_force, dofs, force);
-          }
-      });
+    for (const auto &place : places->places())
+      {
+        const PointForce<dim> &point = (*list)[place.target];
+        if (load_kind(point.varies) != kind)
+          continue;
+        Tensor<1, dim> value;
+        for (unsigned int d = 0; d < dim; ++d)
+          value[d] = place.share * point.force->value(point.place, d);
+        for (unsigned int i = 0; i < cell_force.size(); ++i)
+          cell_force[i] = fe.shape_value(i, place.unit) *
+                          value[fe.system_to_component_index(i).first];
+        typename DoFHandler<dim>::active_cell_iterator(&space->mesh,
+                                                       place.cell->level(),
+                                                       place.cell->index(),
+                                                       &space->dof_handler)
+          ->get_dof_indices(dofs);
+        constraints.distribute_local_to_global(cell_force, dofs, force);
+      }
   }
 
   template class PointForce<2>;

@@ -212,6 +212,14 @@ namespace Signoton
                       degree,
                       "Polynomial degree of the displacement.",
                       Patterns::Integer(1, 2));
+    prm.add_parameter(
+      "Points outside",
+      points_outside,
+      "Of probes and point forces, when the mesh of a curved "
+      "boundary leaves them outside by less than a quarter of a "
+      "coarse cell. nearest: the closest point of the body takes their "
+      "place, with a line on the screen; refuse: an error.",
+      Patterns::Selection("nearest|refuse"));
     prm.leave_subsection();
 
     if (model.is_dynamic)

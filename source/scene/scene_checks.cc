@@ -223,8 +223,21 @@ namespace Signoton
     look(model.probes, {"Output"}, "Probe points");
     for (const auto &line : model.probe_lines)
       look(line.points(), {"Output"}, "Probe lines");
+    std::vector<Point<dim>>  force_points;
+    std::vector<std::string> force_keys;
     for (const auto &force : model.point_forces)
-      look({force.place}, {"Point forces", force.name}, "Point");
+      {
+        force_points.push_back(force.place);
+        force_keys.push_back(
+          model.file.where({"Point forces", force.name}, "Point"));
+      }
+    if (!force_points.empty())
+      model.force_points = std::make_unique<PointLocator<dim>>(
+        space,
+        force_points,
+        force_keys,
+        PointLocator<dim>::Materials::together,
+        points_outside == "nearest");
     for (const auto &item : split_unquoted(model.output.surface_text, ','))
       model.probe_surfaces.emplace_back(
         unquoted(item),

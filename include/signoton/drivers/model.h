@@ -2,6 +2,7 @@
 #define signoton_drivers_model_h
 
 #include <signoton/base/ledger.h>
+#include <signoton/discretization/point_locator.h>
 #include <signoton/discretization/refinement.h>
 #include <signoton/discretization/wave_refinement.h>
 #include <signoton/drivers/load_watch.h>
@@ -162,6 +163,8 @@ namespace Signoton
 
     std::unique_ptr<Space<dim>>     space;
     std::unique_ptr<Mechanics<dim>> mechanics;
+    /** Where point forces are; nullptr if there are none. */
+    std::unique_ptr<PointLocator<dim>> force_points;
 
     void
     set_time(const double time)

@@ -1,9 +1,8 @@
 #ifndef signoton_operators_point_forces_h
 #define signoton_operators_point_forces_h
 
+#include <signoton/discretization/point_locator.h>
 #include <signoton/operators/external_force.h>
-
-#include <deal.II/base/mpi_remote_point_evaluation.h>
 
 namespace Signoton
 {
@@ -44,9 +43,14 @@ namespace Signoton
   public:
     using List = std::vector<PointForce<dim>>;
 
-    /** Find the points in the current mesh. @p list must outlive the object. */
+    /** Find the points in the current mesh. All arguments must outlive the
+     *  object.
+     *  @param places of the forces, in their order; nullptr if there are none
+     */
     void
-    reinit(const Space<dim> &space, const List &list);
+    reinit(const Space<dim>  &space,
+           const List        &list,
+           PointLocator<dim> *places);
 
     /** Add the forces of a kind at the time last set. The caller
      *  compresses. */
@@ -56,9 +60,9 @@ namespace Signoton
         VectorType                      &force) const;
 
   private:
-    const Space<dim>                                           *space = nullptr;
-    const List                                                 *list  = nullptr;
-    std::unique_ptr<Utilities::MPI::RemotePointEvaluation<dim>> search;
+    const Space<dim>  *space  = nullptr;
+    const List        *list   = nullptr;
+    PointLocator<dim> *places = nullptr;
   };
 
   /** Coordinates separated by ','. */

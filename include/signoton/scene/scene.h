@@ -95,6 +95,7 @@ namespace Signoton
     int              dimension      = dim;
     std::string      embedding      = dim == 2 ? "plane strain" : "solid";
     unsigned int     degree         = 1;
+    std::string      points_outside = "nearest";
     std::string      constants_text = "";
     std::string      gravity_text   = "";
     std::string      reference_text = "";
