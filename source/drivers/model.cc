@@ -42,11 +42,20 @@ namespace Signoton
                           "means of displacement, velocity and, for stress, "
                           "traction. 'top, plate'; names with a ',' in double "
                           "quotes.");
-    handler.add_parameter("Probe quantities",
-                          probe_quantities,
-                          "Columns of points and surfaces.",
-                          Patterns::MultipleSelection(
-                            "displacement|velocity|stress"));
+    handler.add_parameter(
+      "Probe quantities",
+      probe_quantities,
+      "Columns of points and surfaces (of these displacement, velocity and, "
+      "for "
+      "stress, traction); lines have displacement, velocity and stress in any "
+      "case. On an interface there is a column for each material, 'stress xx "
+      "at probe 1 in sand', and in lines a row for each. Strain is what the "
+      "material sees, with the initial one; "
+      "principal stresses begin with the largest, tension is positive; region "
+      "is a number, see README.",
+      Patterns::MultipleSelection(
+        "displacement|velocity|stress|strain|contact strain|plastic strain|"
+        "principal stress|pressure|shear intensity|energy density|region"));
     handler.add_parameter("Probe lines",
                           line_text,
                           "Lines with files of their own, and pictures over "

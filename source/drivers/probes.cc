@@ -1,10 +1,11 @@
 #include <signoton/base/gnuplot.h>
 #include <signoton/base/output_file.h>
+#include <signoton/discretization/ghost_values.h>
 #include <signoton/drivers/probes.h>
 
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/numerics/vector_tools_evaluate.h>
 
+#include <numeric>
 #include <sstream>
 
 namespace Signoton
@@ -15,159 +16,137 @@ namespace Signoton
     const std::array<std::string, 6> entries = {
       {"xx", "yy", "zz", "xy", "xz", "yz"}};
 
-    template <int dim>
-    constexpr unsigned int n_entries = dim == 2 ? 4 : 6;
+    /** Lines have the stress in any case. */
+    std::vector<std::string>
+    of_lines(std::vector<std::string> wanted)
+    {
+      if (std::find(wanted.begin(), wanted.end(), "stress") == wanted.end())
+        wanted.emplace_back("stress");
+      std::stable_partition(wanted.begin(), wanted.end(), [](const auto &name) {
+        return name == "stress";
+      });
+      return wanted;
+    }
   } // namespace
 
   template <int dim>
   Probes<dim>::Probes(Model<dim> &model, OutputDirectory &directory)
     : model(model)
     , directory(directory)
+    , wanted(Utilities::split_string_list(model.output.probe_quantities, ','))
+    , quantities(point_quantities(wanted, dim))
+    , line_quantities(point_quantities(of_lines(wanted), dim))
     , mesh_changes(model.space->mesh.signals.any_change.connect(
-        [this] { is_current = false; }))
+        [this] { surfaces_are_current = false; }))
   {
+    if (model.probe_points)
+      points = std::make_unique<PointValues<dim>>(*model.space,
+                                                  *model.mechanics,
+                                                  *model.probe_points);
     for (unsigned int l = 0; l < model.probe_lines.size(); ++l)
-      tables.emplace_back(model.communicator,
-                          directory.path + "/" + file(l, ".csv"));
+      {
+        lines.push_back(std::make_unique<PointValues<dim>>(
+          *model.space, *model.mechanics, *model.probe_lines[l].places));
+        tables.emplace_back(model.communicator,
+                            directory.path + "/" + file(l, ".csv"));
+      }
   }
 
   template <int dim>
   bool
   Probes<dim>::wants(const std::string &quantity) const
   {
-    return model.output.probe_quantities.find(quantity) != std::string::npos;
+    return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
+  }
+
+  template <int dim>
+  std::string
+  Probes<dim>::material_name(const types::material_id id) const
+  {
+    for (const auto &material : model.materials)
+      if (material.id == id)
+        return material.name;
+    return std::to_string(id);
   }
 
   template <int dim>
   void
-  Probes<dim>::update()
+  Probes<dim>::update_surfaces()
   {
-    if (is_current)
+    if (surfaces_are_current)
       return;
-    is_current        = true;
-    const auto &space = *model.space;
-    const auto  look  = [&](const std::vector<Point<dim>> &where) {
-      auto search = std::make_unique<Search>();
-      search->reinit(where, space.mesh, space.mapping);
-      return search;
-    };
-    points = model.probes.empty() ? nullptr : look(model.probes);
-    lines.clear();
-    for (const auto &line : model.probe_lines)
-      lines.push_back(look(line.points()));
-
+    surfaces_are_current = true;
+    const auto &space    = *model.space;
     surfaces.assign(model.probe_surfaces.size(), Surface());
-    const QGauss<dim - 1>                quadrature(space.degree + 1);
-    FEFaceValues<dim>                    values(space.mapping,
+    if (surfaces.empty())
+      return;
+    const QGauss<dim - 1>           quadrature(space.degree + 1);
+    const FE_DGQArbitraryNodes<dim> at_points(QGauss<1>(space.degree + 1));
+    FEFaceValues<dim>               values(space.mapping,
                              space.fe,
                              quadrature,
                              update_values | update_quadrature_points |
                                update_normal_vectors | update_JxW_values);
-    std::vector<types::global_dof_index> dofs(space.fe.n_dofs_per_cell());
-    if (!surfaces.empty())
-      for (const auto &cell : space.dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned() && cell->at_boundary())
-          for (const auto f : cell->face_indices())
-            for (unsigned int s = 0; s < surfaces.size(); ++s)
+    FEFaceValues<dim>               of_points(space.mapping,
+                                at_points,
+                                quadrature,
+                                update_values);
+    for (const auto &cell : space.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        for (const auto f : cell->face_indices())
+          for (unsigned int s = 0; s < surfaces.size(); ++s)
+            if (cell->face(f)->at_boundary() &&
+                cell->face(f)->boundary_id() == model.probe_surfaces[s].second)
               {
-                if (!cell->face(f)->at_boundary() ||
-                    cell->face(f)->boundary_id() !=
-                      model.probe_surfaces[s].second)
-                  continue;
-                Surface &surface = surfaces[s];
                 values.reinit(cell, f);
-                cell->get_dof_indices(dofs);
-                Tensor<1, dim> normal;
-                for (const unsigned int q : values.quadrature_point_indices())
-                  {
-                    const double dA =
-                      values.JxW(q) * space.weight(values.quadrature_point(q));
-                    surface.area += dA;
-                    normal += dA * values.normal_vector(q);
-                  }
-                surface.cells.emplace_back(cell->active_cell_index(), normal);
-                for (unsigned int i = 0; i < dofs.size(); ++i)
-                  {
-                    if (!space.fe.has_support_on_face(i, f))
-                      continue;
-                    double weight = 0.;
-                    for (const unsigned int q :
-                         values.quadrature_point_indices())
-                      weight += values.shape_value(i, q) * values.JxW(q) *
-                                space.weight(values.quadrature_point(q));
-                    surface.dofs.push_back(dofs[i]);
-                    surface.component.push_back(
-                      space.fe.system_to_component_index(i).first);
-                    surface.weight.push_back(weight);
-                  }
+                of_points.reinit(
+                  typename Triangulation<dim>::cell_iterator(cell), f);
+                surfaces[s].add(space, cell, f, values, of_points);
               }
-  }
-
-  template <int dim>
-  auto
-  Probes<dim>::evaluate(Search           &search,
-                        const VectorType &displacement,
-                        const VectorType *velocity,
-                        const bool        with_stress) -> Values
-  {
-    const auto &space = *model.space;
-    Values      result;
-    const auto  nodal = [&](const VectorType &field) {
-      VectorType u = space.make_relevant_vector();
-      u.copy_locally_owned_data_from(field);
-      u.update_ghost_values();
-      return VectorTools::point_values<dim>(search, space.dof_handler, u);
-    };
-    result.displacement = nodal(displacement);
-    if (velocity != nullptr)
-      result.velocity = nodal(*velocity);
-    if (!with_stress)
-      return result;
-
-    const auto index = [&](const std::pair<int, int> &cell) {
-      return typename Triangulation<dim>::active_cell_iterator(&space.mesh,
-                                                               cell.first,
-                                                               cell.second)
-        ->active_cell_index();
-    };
-    using Stress = Tensor<1, 6>;
-    std::vector<Stress> found, buffer;
-    std::vector<bool>   wanted(space.mesh.n_active_cells(), false);
-    // the first pass only asks which cells they are
-    search.template evaluate_and_process<Stress>(
-      found, buffer, [&](const ArrayView<Stress> &, const auto &data) {
-        for (const auto &cell : data.cells)
-          wanted[index(cell)] = true;
-      });
-    const auto averages = model.mechanics->cell_averages(displacement, wanted);
-    search.template evaluate_and_process<Stress>(
-      found, buffer, [&](const ArrayView<Stress> &values, const auto &data) {
-        for (unsigned int c = 0; c < data.cells.size(); ++c)
-          for (unsigned int i = data.reference_point_ptrs[c];
-               i < data.reference_point_ptrs[c + 1];
-               ++i)
-            for (unsigned int e = 0; e < 6; ++e)
-              values[i][e] = averages[index(data.cells[c])].stress[e];
-      });
-    // a point on a face has two cells
-    const auto &begin = search.get_point_ptrs();
-    for (unsigned int p = 0; p + 1 < begin.size(); ++p)
-      {
-        result.stress.emplace_back();
-        for (unsigned int i = begin[p]; i < begin[p + 1]; ++i)
-          result.stress.back() += found[i] / (begin[p + 1] - begin[p]);
-      }
-    return result;
+    for (Surface &surface : surfaces)
+      surface.cells = model.mechanics->cell_numbers(surface.cells);
   }
 
   template <int dim>
   void
-  Probes<dim>::add_surface(Line                            &line,
-                           const std::string               &name,
-                           const Surface                   &surface,
-                           const VectorType                &displacement,
-                           const VectorType                *velocity,
-                           const std::vector<CellAverages> &averages) const
+  Probes<dim>::Surface::add(
+    const Space<dim>                                     &space,
+    const typename DoFHandler<dim>::active_cell_iterator &cell,
+    const unsigned int                                    f,
+    const FEFaceValues<dim>                              &values,
+    const FEFaceValues<dim>                              &of_points)
+  {
+    std::vector<double> dA;
+    for (const unsigned int q : values.quadrature_point_indices())
+      dA.push_back(values.JxW(q) * space.weight(values.quadrature_point(q)));
+    area += std::accumulate(dA.begin(), dA.end(), 0.);
+    cells.push_back(cell->active_cell_index());
+    for (unsigned int point = 0; point < space.quadrature.size(); ++point)
+      {
+        area_vectors.emplace_back();
+        for (unsigned int q = 0; q < dA.size(); ++q)
+          area_vectors.back() +=
+            of_points.shape_value(point, q) * dA[q] * values.normal_vector(q);
+      }
+    std::vector<types::global_dof_index> of_cell(space.fe.n_dofs_per_cell());
+    cell->get_dof_indices(of_cell);
+    for (unsigned int i = 0; i < of_cell.size(); ++i)
+      if (space.fe.has_support_on_face(i, f))
+        {
+          dofs.push_back(of_cell[i]);
+          component.push_back(space.fe.system_to_component_index(i).first);
+          weight.push_back(0.);
+          for (unsigned int q = 0; q < dA.size(); ++q)
+            weight.back() += values.shape_value(i, q) * dA[q];
+        }
+  }
+
+  template <int dim>
+  auto
+  Probes<dim>::columns_of_surface(const std::string &name,
+                                  const Surface     &surface,
+                                  const VectorType  &displacement,
+                                  const VectorType  *velocity) -> Line
   {
     std::array<double, 3 * dim + 1> sums{};
     sums[3 * dim] = surface.area;
@@ -178,19 +157,25 @@ namespace Signoton
         if (velocity != nullptr)
           sums[dim + surface.component[i]] += w * (*velocity)(surface.dofs[i]);
       }
-    if (!averages.empty())
-      for (const auto &[cell, normal] : surface.cells)
-        {
-          SymmetricTensor<2, 3> stress;
-          for (unsigned int e = 0; e < 6; ++e)
-            stress.access_raw_entry(e) = averages[cell].stress[e];
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int b = 0; b < dim; ++b)
-              sums[2 * dim + a] += stress[a][b] * normal[b];
-        }
+    if (wants("stress"))
+      {
+        std::vector<PointState> states;
+        model.mechanics->point_states(displacement, surface.cells, states);
+        for (std::size_t i = 0; i < states.size(); ++i)
+          {
+            SymmetricTensor<2, 3> stress;
+            for (unsigned int e = 0; e < 6; ++e)
+              stress.access_raw_entry(e) =
+                states[i].values[PointState::stress + e];
+            for (unsigned int a = 0; a < dim; ++a)
+              for (unsigned int b = 0; b < dim; ++b)
+                sums[2 * dim + a] += stress[a][b] * surface.area_vectors[i][b];
+          }
+      }
     Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                         model.communicator,
                         ArrayView<double>(sums.data(), sums.size()));
+    Line       line;
     const auto add = [&](const std::string &quantity, const unsigned int from) {
       for (unsigned int d = 0; d < dim; ++d)
         line.emplace_back(quantity + " " + axes[d] + " at " + name,
@@ -202,6 +187,38 @@ namespace Signoton
       add("velocity", dim);
     if (wants("stress"))
       add("traction", 2 * dim);
+    return line;
+  }
+
+  template <int dim>
+  auto
+  Probes<dim>::columns_of_points(const VectorType &displacement,
+                                 const VectorType *velocity) -> Line
+  {
+    const auto values =
+      points->evaluate(displacement, velocity, !quantities.empty());
+    const auto at = [](const unsigned int point) {
+      return " at probe " + std::to_string(point + 1);
+    };
+    Line       line;
+    const auto add = [&](const std::string &quantity, const auto &of_points) {
+      for (unsigned int i = 0; wants(quantity) && i < of_points.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          line.emplace_back(quantity + " " + axes[d] + at(i), of_points[i][d]);
+    };
+    add("displacement", values.displacement);
+    add("velocity", values.velocity);
+    for (unsigned int t = 0; t < values.states.size(); ++t)
+      {
+        const auto &target = model.probe_points->targets[t];
+        for (const auto &quantity : quantities)
+          line.emplace_back(quantity.name + at(target.point) +
+                              (target.material == numbers::invalid_material_id ?
+                                 "" :
+                                 " in " + material_name(target.material)),
+                            quantity.value(values.states[t]));
+      }
+    return line;
   }
 
   template <int dim>
@@ -210,55 +227,17 @@ namespace Signoton
                            const VectorType &displacement,
                            const VectorType *velocity)
   {
-    update();
-    if (points)
-      {
-        const Values values =
-          evaluate(*points, displacement, velocity, wants("stress"));
-        const auto add = [&](const std::string &quantity,
-                             const auto        &names,
-                             const auto        &columns,
-                             const unsigned int n) {
-          for (unsigned int i = 0; i < columns.size(); ++i)
-            for (unsigned int c = 0; c < n; ++c)
-              line.emplace_back(quantity + " " + names[c] + " at probe " +
-                                  std::to_string(i + 1),
-                                columns[i][c]);
-        };
-        if (wants("displacement"))
-          add("displacement", axes, values.displacement, dim);
-        if (wants("velocity"))
-          add("velocity", axes, values.velocity, dim);
-        add("stress", entries, values.stress, n_entries<dim>);
-      }
-    if (surfaces.empty())
-      return;
-    const auto ghosted = [&](const VectorType &field) {
-      VectorType u = model.space->make_relevant_vector();
-      u.copy_locally_owned_data_from(field);
-      u.update_ghost_values();
-      return u;
+    const GhostValues ghosts(displacement),
+      of_velocity(velocity != nullptr ? *velocity : displacement);
+    const auto append = [&](const Line &columns) {
+      line.insert(line.end(), columns.begin(), columns.end());
     };
-    const VectorType          u = ghosted(displacement);
-    VectorType                v;
-    std::vector<CellAverages> averages;
-    if (velocity != nullptr)
-      v = ghosted(*velocity);
-    if (wants("stress"))
-      {
-        std::vector<bool> wanted(model.space->mesh.n_active_cells(), false);
-        for (const auto &surface : surfaces)
-          for (const auto &cell : surface.cells)
-            wanted[cell.first] = true;
-        averages = model.mechanics->cell_averages(displacement, wanted);
-      }
+    if (points)
+      append(columns_of_points(displacement, velocity));
+    update_surfaces();
     for (unsigned int s = 0; s < surfaces.size(); ++s)
-      add_surface(line,
-                  model.probe_surfaces[s].first,
-                  surfaces[s],
-                  u,
-                  velocity != nullptr ? &v : nullptr,
-                  averages);
+      append(columns_of_surface(
+        model.probe_surfaces[s].first, surfaces[s], displacement, velocity));
   }
 
   template <int dim>
@@ -284,32 +263,37 @@ namespace Signoton
                            const VectorType &displacement,
                            const VectorType *velocity)
   {
-    update();
-    CSVTable::Names names = {"time", "distance"};
+    const GhostValues ghosts(displacement),
+      of_velocity(velocity != nullptr ? *velocity : displacement);
+    const bool      with_materials = model.materials.size() > 1;
+    CSVTable::Names names          = {"time", "distance"};
     for (const char *quantity : {"displacement", "velocity"})
       if (quantity[0] == 'd' || velocity != nullptr)
         for (unsigned int d = 0; d < dim; ++d)
           names.push_back(quantity + (" " + axes[d]));
-    for (unsigned int e = 0; e < n_entries<dim>; ++e)
-      names.push_back("stress " + entries[e]);
+    for (const auto &quantity : line_quantities)
+      names.push_back(quantity.name);
+    if (with_materials)
+      names.push_back("material id");
 
     std::string changes;
     for (unsigned int l = 0; l < lines.size(); ++l)
       {
-        const auto  &line   = model.probe_lines[l];
-        const auto   at     = line.points();
-        const Values values = evaluate(*lines[l], displacement, velocity, true);
+        const auto &line   = model.probe_lines[l];
+        const auto  at     = line.points();
+        const auto  values = lines[l]->evaluate(displacement, velocity, true);
         std::vector<CSVTable::Row> rows;
-        for (unsigned int i = 0; i < at.size(); ++i)
+        for (unsigned int t = 0; t < values.states.size(); ++t)
           {
-            CSVTable::Row row = {time, at[i].distance(line.from)};
-            for (unsigned int d = 0; d < dim; ++d)
-              row.push_back(values.displacement[i][d]);
-            if (velocity != nullptr)
-              for (unsigned int d = 0; d < dim; ++d)
-                row.push_back(values.velocity[i][d]);
-            for (unsigned int e = 0; e < n_entries<dim>; ++e)
-              row.push_back(values.stress[i][e]);
+            const auto   &target = line.places->targets[t];
+            CSVTable::Row row    = {time, at[target.point].distance(line.from)};
+            for (const auto *field : {&values.displacement, &values.velocity})
+              for (unsigned int d = 0; !field->empty() && d < dim; ++d)
+                row.push_back((*field)[target.point][d]);
+            for (const auto &quantity : line_quantities)
+              row.push_back(quantity.value(values.states[t]));
+            if (with_materials)
+              row.push_back(line.places->material(t));
             rows.push_back(row);
           }
         directory.enter({file(l, ".csv")});

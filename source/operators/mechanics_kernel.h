@@ -87,8 +87,13 @@ namespace Signoton
     EnergyBalance
     energy_balance(const VectorType &displacement) override;
     std::vector<CellAverages>
-    cell_averages(const VectorType        &displacement,
-                  const std::vector<bool> &wanted) override;
+    cell_averages(const VectorType &displacement) override;
+    std::vector<unsigned int>
+    cell_numbers(const std::vector<unsigned int> &cells) const override;
+    void
+    point_states(const VectorType                &displacement,
+                 const std::vector<unsigned int> &cells,
+                 std::vector<PointState>         &states) override;
     void
     stress_field(const VectorType      &displacement,
                  const PointSpace<dim> &points,
@@ -122,6 +127,7 @@ namespace Signoton
       unsigned int                      batch;
       unsigned int                      q;
       Number                            weight; ///< volume of the point in m^3
+      const Tensor2<Number>            &strain;
       const Rheology::Response<Number> &response;
     };
     using Visitor = std::function<void(const PointResponse &)>;
@@ -197,20 +203,18 @@ namespace Signoton
                const VectorType &displacement,
                VectorType       &force);
 
-    /** Everything a law knows, point by point, without integration.
-     *  @param wanted see cell_averages(); others of the same batch come along */
+    /** Everything a law knows, point by point, without integration. */
     void
-    visit_points(const VectorType        &displacement,
-                 const Visitor           &visitor,
-                 const std::vector<bool> &wanted = {});
+    visit_points(const VectorType &displacement, const Visitor &visitor);
     template <typename Law>
     void
-    visit_run(const Law               &law,
-              Cell                    &cell,
-              const Range             &run,
-              const VectorType        &displacement,
-              const Visitor           &visitor,
-              const std::vector<bool> &wanted);
+    visit_run(const Law        &law,
+              Cell             &cell,
+              const Range      &run,
+              const VectorType &displacement,
+              const Visitor    &visitor);
+    static PointState
+    state_of_lane(const PointResponse &point, const unsigned int lane);
 
     // mechanics_dynamics.templates.h
     /** The pressure of shock viscosity in a material over a step, by the

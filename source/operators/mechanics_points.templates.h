@@ -3,6 +3,8 @@
 
 #include "mechanics_kernel.h"
 
+#include <signoton/discretization/ghost_values.h>
+
 // What the kernel knows at its points, without integrals over shape functions:
 // energies, averages, and the way of history to other meshes.
 
@@ -15,32 +17,24 @@ namespace Signoton
                                                 Cell             &cell,
                                                 const Range      &run,
                                                 const VectorType &displacement,
-                                                const Visitor    &visitor,
-                                                const std::vector<bool> &wanted)
+                                                const Visitor    &visitor)
   {
-    const auto is_wanted = [&](const unsigned int batch) {
-      bool any = wanted.empty();
-      for (unsigned int i = 0;
-           !any && i < data.n_active_entries_per_cell_batch(batch);
-           ++i)
-        any = wanted[data.get_cell_iterator(batch, i)->active_cell_index()];
-      return any;
-    };
     Rheology::Response<Number> response;
     auto accepted = Rheology::make_history<Number>(law), next = accepted;
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
-        if (!is_wanted(batch))
-          continue;
         cell.reinit(batch);
         cell.read_dof_values_plain(displacement);
         cell.evaluate(cell_flags<Embedding>);
         for (unsigned int q = 0; q < cell.n_q_points; ++q)
           {
+            const Tensor2<Number> strain = total_strain(cell, batch, q);
             read_history<Law>(history.accepted(batch, q), accepted);
-            law.template update<Rheology::energies>(
-              total_strain(cell, batch, q), accepted, next, response);
-            visitor({batch, q, weight(cell, q), response});
+            law.template update<Rheology::energies>(strain,
+                                                    accepted,
+                                                    next,
+                                                    response);
+            visitor({batch, q, weight(cell, q), strain, response});
           }
       }
   }
@@ -48,9 +42,8 @@ namespace Signoton
   template <typename Embedding, int degree>
   void
   MechanicsKernel<Embedding, degree>::visit_points(
-    const VectorType        &displacement,
-    const Visitor           &visitor,
-    const std::vector<bool> &wanted)
+    const VectorType &displacement,
+    const Visitor    &visitor)
   {
     VectorType unused; // nothing is integrated
     initialize_vector(unused);
@@ -58,7 +51,7 @@ namespace Signoton
       [&](const auto &, auto &, const auto &src, const Range &range) {
         Cell cell(data, all_constraints);
         for_each_run(range, [&](const auto &law, const Range &run) {
-          visit_run(law, cell, run, src, visitor, wanted);
+          visit_run(law, cell, run, src, visitor);
         });
       },
       unused,
@@ -148,8 +141,7 @@ namespace Signoton
   template <typename Embedding, int degree>
   std::vector<CellAverages>
   MechanicsKernel<Embedding, degree>::cell_averages(
-    const VectorType        &displacement,
-    const std::vector<bool> &wanted)
+    const VectorType &displacement)
   {
     std::vector<CellAverages> result(space.mesh.n_active_cells());
     std::vector<double>       volume(result.size(), 0.);
@@ -179,7 +171,7 @@ namespace Signoton
           volume[cell] += w;
         }
     };
-    visit_points(displacement, add, wanted);
+    visit_points(displacement, add);
     for (std::size_t cell = 0; cell < result.size(); ++cell)
       if (volume[cell] > 0.)
         {
@@ -192,6 +184,79 @@ namespace Signoton
           result[cell].energy_density /= volume[cell];
         }
     return result;
+  }
+
+  template <typename Embedding, int degree>
+  std::vector<unsigned int>
+  MechanicsKernel<Embedding, degree>::cell_numbers(
+    const std::vector<unsigned int> &cells) const
+  {
+    std::vector<unsigned int> number_of(space.mesh.n_active_cells(),
+                                        numbers::invalid_unsigned_int);
+    for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
+      for (unsigned int i = 0; i < data.n_active_entries_per_cell_batch(batch);
+           ++i)
+        number_of[data.get_cell_iterator(batch, i)->active_cell_index()] =
+          batch * Number::size() + i;
+    std::vector<unsigned int> result;
+    for (const unsigned int cell : cells)
+      result.push_back(number_of[cell]);
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  PointState
+  MechanicsKernel<Embedding, degree>::state_of_lane(const PointResponse &point,
+                                                    const unsigned int   lane)
+  {
+    PointState result;
+    for (unsigned int c = 0; c < 6; ++c)
+      {
+        const auto entry = [&](const Tensor2<Number> &tensor) {
+          return tensor.access_raw_entry(c)[lane];
+        };
+        result.values[PointState::stress + c] = entry(point.response.stress);
+        result.values[PointState::strain + c] = entry(point.strain);
+        result.values[PointState::contact_strain + c] =
+          entry(point.response.contact_strain);
+        result.values[PointState::plastic_strain + c] =
+          entry(point.response.plastic_strain);
+      }
+    result.values[PointState::energy_density] =
+      point.response.stored_energy[lane];
+    result.values[PointState::region] = point.response.region[lane];
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::point_states(
+    const VectorType                &displacement,
+    const std::vector<unsigned int> &cells,
+    std::vector<PointState>         &states)
+  {
+    states.resize(cells.size() * n_points);
+    const GhostValues ghosts(displacement);
+    Cell              cell(data, all_constraints);
+    // batches are wider than what is asked for: each is visited once for all of
+    // its cells
+    for (std::size_t begin = 0, end; begin < cells.size(); begin = end)
+      {
+        const unsigned int batch = cells[begin] / Number::size();
+        for (end = begin;
+             end < cells.size() && cells[end] / Number::size() == batch;)
+          ++end;
+        const auto keep = [&](const PointResponse &point) {
+          for (std::size_t i = begin; i < end; ++i)
+            states[i * n_points + point.q] =
+              state_of_lane(point, cells[i] % Number::size());
+        };
+        std::visit(
+          [&](const auto &law) {
+            visit_run(law, cell, {batch, batch + 1}, displacement, keep);
+          },
+          laws[material_of_batch[batch]]);
+      }
   }
 
   template <typename Embedding, int degree>

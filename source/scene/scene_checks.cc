@@ -3,13 +3,11 @@
 #include <signoton/discretization/rigid_motions.h>
 #include <signoton/scene/scene.h>
 
-#include <deal.II/base/mpi_remote_point_evaluation.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <set>
-#include <sstream>
 
 // What a scene checks once it has its mesh, and its probes.
 
@@ -187,7 +185,8 @@ namespace Signoton
                           "a line needs no more points than it meets cells");
         model.probe_lines.push_back({parse_point<dim>(parts[0], lines_at),
                                      parse_point<dim>(parts[1], lines_at),
-                                     static_cast<unsigned int>(n)});
+                                     static_cast<unsigned int>(n),
+                                     nullptr});
       }
     if (model.is_dynamic && n_points * model.output.line_samples > 1e8)
       throw UserError(model.file.where({"Output"}, "Probe line samples"),
@@ -201,28 +200,20 @@ namespace Signoton
   void
   Scene<dim>::check_probes()
   {
-    const auto &space = *model.space;
-    const auto  look  = [&](const std::vector<Point<dim>> &points,
-                          const SceneFile::Path         &path,
-                          const std::string             &key) {
-      Utilities::MPI::RemotePointEvaluation<dim> search;
-      search.reinit(points, space.mesh, space.mapping);
-      for (unsigned int i = 0; i < points.size(); ++i)
-        if (!search.point_found(i))
-          {
-            std::ostringstream point;
-            point << points[i];
-            throw UserError(model.file.where(path, key),
-                            "point " + point.str() +
-                              ", which is not in the body",
-                            "points of the body",
-                            "on curved boundaries of the mesh, stay a little "
-                              "inside");
-          }
+    const auto &space  = *model.space;
+    const auto  locate = [&](const std::vector<Point<dim>> &points,
+                            const std::string             &key) {
+      return std::make_unique<PointLocator<dim>>(
+        space,
+        points,
+        std::vector<std::string>{model.file.where({"Output"}, key)},
+        PointLocator<dim>::Materials::apart,
+        points_outside == "nearest");
     };
-    look(model.probes, {"Output"}, "Probe points");
-    for (const auto &line : model.probe_lines)
-      look(line.points(), {"Output"}, "Probe lines");
+    if (!model.probes.empty())
+      model.probe_points = locate(model.probes, "Probe points");
+    for (auto &line : model.probe_lines)
+      line.places = locate(line.points(), "Probe lines");
     std::vector<Point<dim>>  force_points;
     std::vector<std::string> force_keys;
     for (const auto &force : model.point_forces)

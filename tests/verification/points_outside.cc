@@ -48,6 +48,47 @@ namespace
     return "";
   }
 
+  /** In the middle of a chord, on either side of the arc. */
+  SceneFile
+  with_probes(const unsigned int degree)
+  {
+    SceneFile file = ring(degree);
+    file.set({"Output"}, "Probe points", "0.93728, 0.25114; 1.5, 0.1");
+    file.set({"Output"}, "Probe quantities", "displacement, stress");
+    return file;
+  }
+
+  void
+  probes(Report &report)
+  {
+    // u = p a^2/(E (b^2 - a^2)) (1 + nu) ((1 - 2 nu) r + b^2/r)
+    const double exact = 1.3 / 3000. * (0.4 + 4.);
+    const auto   line  = run(with_probes(2)).back();
+    const double u     = std::hypot(value(line, "displacement x at probe 1"),
+                                value(line, "displacement y at probe 1"));
+    report.require("displacement at the rim", u / exact - 1., 0.01);
+    const double trace =
+      value(line, "stress xx at probe 1") + value(line, "stress yy at probe 1");
+    report.require("sum of stresses, 2 p a^2/(b^2 - a^2)",
+                   trace - 2. / 3.,
+                   0.1);
+
+    SceneFile strict = with_probes(1);
+    strict.set({"Discretization"}, "Points outside", "refuse");
+    const std::string words = refusal(strict);
+    report.require("refused with its key",
+                   words.find("Probe points") != std::string::npos &&
+                       words.find("0.93728") != std::string::npos ?
+                     0. :
+                     1.,
+                   0.);
+    SceneFile fixed = strict;
+    fixed.set({"Refinement"}, "Cycles in first step", "0");
+    report.require("accepted on the coarse mesh",
+                   refusal(fixed).empty() ? 0. : 1.,
+                   0.);
+  }
+
   /** A force in the middle of a chord, inside of the arc. */
   void
   forces(Report &report)
@@ -105,6 +146,7 @@ int
 main(int argc, char **argv)
 {
   return Verification::main(argc, argv, [](Report &report) {
+    probes(report);
     forces(report);
     at_the_start(report);
   });

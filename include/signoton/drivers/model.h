@@ -92,8 +92,9 @@ namespace Signoton
   template <int dim>
   struct ProbeLine
   {
-    Point<dim>   from, to;
-    unsigned int n_points = 2;
+    Point<dim>                         from, to;
+    unsigned int                       n_points = 2;
+    std::unique_ptr<PointLocator<dim>> places;
 
     std::vector<Point<dim>>
     points() const
@@ -163,8 +164,8 @@ namespace Signoton
 
     std::unique_ptr<Space<dim>>     space;
     std::unique_ptr<Mechanics<dim>> mechanics;
-    /** Where point forces are; nullptr if there are none. */
-    std::unique_ptr<PointLocator<dim>> force_points;
+    /** Where probes and point forces are; nullptr if there are none. */
+    std::unique_ptr<PointLocator<dim>> probe_points, force_points;
 
     void
     set_time(const double time)

@@ -4,8 +4,10 @@
 #include <signoton/base/csv_table.h>
 #include <signoton/drivers/checkpoint.h>
 #include <signoton/drivers/output_directory.h>
+#include <signoton/drivers/point_quantities.h>
+#include <signoton/drivers/point_values.h>
 
-#include <deal.II/base/mpi_remote_point_evaluation.h>
+#include <deal.II/fe/fe_values.h>
 
 namespace Signoton
 {
@@ -62,42 +64,44 @@ namespace Signoton
     resume(const Checkpoint<dim> &checkpoint);
 
   private:
-    using Search = Utilities::MPI::RemotePointEvaluation<dim>;
-
-    /** At points: displacement, velocity if there is one, stress. */
-    struct Values
-    {
-      std::vector<Tensor<1, dim>> displacement, velocity;
-      std::vector<Tensor<1, 6>>   stress; ///< averages of cells, in Pa
-    };
-
     /** Means over a part of the boundary. */
     struct Surface
     {
-      std::vector<std::pair<unsigned int, Tensor<1, dim>>> cells; ///< n dA
-      std::vector<types::global_dof_index>                 dofs;
-      std::vector<unsigned int>                            component;
-      std::vector<double>                                  weight;
-      double                                               area = 0.; ///< own
+      std::vector<types::global_dof_index> dofs;
+      std::vector<unsigned int>            component;
+      std::vector<double>                  weight;
+      std::vector<unsigned int>            cells; ///< as the mechanics has them
+      /** For each quadrature point of each cell: n dA of the points of the
+       *  face, to which the stress is extrapolated. */
+      std::vector<Tensor<1, dim>> area_vectors;
+      double                      area = 0.; ///< own
+
+      void
+      add(const Space<dim>                                     &space,
+          const typename DoFHandler<dim>::active_cell_iterator &cell,
+          const unsigned int                                    f,
+          const FEFaceValues<dim>                              &values,
+          const FEFaceValues<dim>                              &of_points);
     };
 
-    /** Look for points and faces on a new mesh. */
+    /** Look for faces on a new mesh. */
     void
-    update();
+    update_surfaces();
 
-    Values
-    evaluate(Search           &search,
-             const VectorType &displacement,
-             const VectorType *velocity,
-             const bool        with_stress);
+    Line
+    columns_of_points(const VectorType &displacement,
+                      const VectorType *velocity);
 
-    void
-    add_surface(Line                            &line,
-                const std::string               &name,
-                const Surface                   &surface,
-                const VectorType                &displacement,
-                const VectorType                *velocity,
-                const std::vector<CellAverages> &averages) const;
+    Line
+    columns_of_surface(const std::string &name,
+                       const Surface     &surface,
+                       const VectorType  &displacement,
+                       const VectorType  *velocity);
+
+    /** Whose material the columns of a target are of, if it shares its point
+     *  with others. */
+    std::string
+    material_name(const types::material_id id) const;
 
     bool
     wants(const std::string &quantity) const;
@@ -110,15 +114,17 @@ namespace Signoton
     static std::string
     file(const unsigned int line, const std::string &ending);
 
-    Model<dim>                          &model;
-    OutputDirectory                     &directory;
-    std::vector<CSVTable>                tables; ///< of lines
-    bool                                 is_current = false;
-    boost::signals2::scoped_connection   mesh_changes;
-    std::unique_ptr<Search>              points;
-    std::vector<std::unique_ptr<Search>> lines;
-    std::vector<Surface>                 surfaces;
-    unsigned int                         n_samples = 0;
+    Model<dim>                                    &model;
+    OutputDirectory                               &directory;
+    const std::vector<std::string>                 wanted; ///< quantities
+    const std::vector<PointQuantity>               quantities, line_quantities;
+    std::vector<CSVTable>                          tables; ///< of lines
+    std::unique_ptr<PointValues<dim>>              points;
+    std::vector<std::unique_ptr<PointValues<dim>>> lines;
+    bool                                           surfaces_are_current = false;
+    boost::signals2::scoped_connection             mesh_changes;
+    std::vector<Surface>                           surfaces;
+    unsigned int                                   n_samples = 0;
   };
 } // namespace Signoton
 

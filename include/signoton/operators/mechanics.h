@@ -56,6 +56,25 @@ namespace Signoton
     bool mixed = false;
   };
 
+  /** What is known at a point: tensors in the order of their entries xx, yy,
+   *  zz, xy, xz, yz, each from its place in one array, so that all is
+   *  interpolated alike. */
+  struct PointState
+  {
+    enum Place : unsigned int
+    {
+      stress         = 0,  ///< in Pa
+      strain         = 6,  ///< which the law sees: with the initial one
+      contact_strain = 12, ///< of rigid contacts
+      plastic_strain = 18, ///< of plastic hinges
+      energy_density = 24, ///< stored, in J/m^3
+      region         = 25, ///< see Rheology::Region; not to be interpolated
+      n_values       = 26
+    };
+
+    std::array<double, n_values> values{};
+  };
+
   /**
    * The integrals of mechanics over the cells of a mesh: internal force,
    * incremental potential, tangent. They all come from one cell operation,
@@ -206,12 +225,22 @@ namespace Signoton
     virtual EnergyBalance
     energy_balance(const VectorType &displacement) = 0;
 
-    /** Averages for the locally owned active cells, by active cell index.
-     *  @param wanted the cells that are looked at, in the same order; all if it
-     *    is empty */
+    /** Averages for the locally owned active cells, by active cell index. */
     virtual std::vector<CellAverages>
-    cell_averages(const VectorType        &displacement,
-                  const std::vector<bool> &wanted = {}) = 0;
+    cell_averages(const VectorType &displacement) = 0;
+
+    /** The numbers under which the sweeps know own cells.
+     *  @param cells active cell indices */
+    virtual std::vector<unsigned int>
+    cell_numbers(const std::vector<unsigned int> &cells) const = 0;
+
+    /** What is known at the quadrature points of some own cells, which may be
+     *  none: their points one after the other. On all ranks.
+     *  @param cells as cell_numbers() has them; fast if sorted */
+    virtual void
+    point_states(const VectorType                &displacement,
+                 const std::vector<unsigned int> &cells,
+                 std::vector<PointState>         &states) = 0;
 
     /** The in-plane entries of the stress as a field of points, in the order
      *  of the raw entries of a SymmetricTensor<2,dim>. */
