@@ -1,5 +1,6 @@
 #include <signoton/base/output_file.h>
 #include <signoton/drivers/field_output.h>
+#include <signoton/drivers/nodal_fields.h>
 
 #include <deal.II/numerics/data_out.h>
 
@@ -20,34 +21,11 @@ namespace Signoton
   {}
 
   template <int dim>
-  void
-  FieldOutput<dim>::write(const VectorType  &displacement,
-                          const VectorType  *velocity,
-                          const double       time,
-                          const unsigned int step)
+  auto
+  FieldOutput<dim>::cell_fields(const VectorType &displacement) -> CellFields
   {
-    DataOut<dim> output;
-    output.attach_dof_handler(model.space->dof_handler);
-    VectorType nodal[2]; // in use until the end
-    const auto add_nodal = [&](const VectorType  &field,
-                               const std::string &name,
-                               VectorType        &ghosted) {
-      ghosted = model.space->make_relevant_vector();
-      ghosted.copy_locally_owned_data_from(field);
-      ghosted.update_ghost_values();
-      output.add_data_vector(
-        ghosted,
-        std::vector<std::string>(dim, name),
-        DataOut<dim>::type_dof_data,
-        std::vector<DataComponentInterpretation::DataComponentInterpretation>(
-          dim, DataComponentInterpretation::component_is_part_of_vector));
-    };
-    add_nodal(displacement, "displacement", nodal[0]);
-    if (velocity != nullptr)
-      add_nodal(*velocity, "velocity", nodal[1]);
-
     const auto averages = model.mechanics->cell_averages(displacement);
-    std::vector<std::pair<std::string, Vector<float>>> cell_data;
+    CellFields cell_data;
     const auto add = [&](const std::string &name, const auto &value) {
       cell_data.emplace_back(name, Vector<float>(averages.size()));
       for (std::size_t i = 0; i < averages.size(); ++i)
@@ -101,8 +79,44 @@ namespace Signoton
           cell_data.back().second[cell->active_cell_index()] =
             cell->material_id();
       }
+    return cell_data;
+  }
+
+  template <int dim>
+  void
+  FieldOutput<dim>::write(const VectorType  &displacement,
+                          const VectorType  *velocity,
+                          const double       time,
+                          const unsigned int step)
+  {
+    DataOut<dim> output;
+    output.attach_dof_handler(model.space->dof_handler);
+    VectorType nodal[2]; // in use until the end
+    const auto add_nodal = [&](const VectorType  &field,
+                               const std::string &name,
+                               VectorType        &ghosted) {
+      ghosted = model.space->make_relevant_vector();
+      ghosted.copy_locally_owned_data_from(field);
+      ghosted.update_ghost_values();
+      output.add_data_vector(
+        ghosted,
+        std::vector<std::string>(dim, name),
+        DataOut<dim>::type_dof_data,
+        std::vector<DataComponentInterpretation::DataComponentInterpretation>(
+          dim, DataComponentInterpretation::component_is_part_of_vector));
+    };
+    add_nodal(displacement, "displacement", nodal[0]);
+    if (velocity != nullptr)
+      add_nodal(*velocity, "velocity", nodal[1]);
+
+    const auto cell_data = cell_fields(displacement);
     for (const auto &[name, values] : cell_data)
       output.add_data_vector(values, name, DataOut<dim>::type_cell_data);
+    const NodalFields<dim> nodes(model, displacement);
+    for (unsigned int i = 0; i < nodes.fields.size(); ++i)
+      output.add_data_vector(nodes.dof_handler,
+                             nodes.fields[i],
+                             nodes.names[i]);
     output.build_patches(model.space->mapping,
                          model.space->degree,
                          DataOut<dim>::curved_boundary);

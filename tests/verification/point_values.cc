@@ -5,6 +5,10 @@
 
 #include "box_scene.h"
 
+#include <signoton/drivers/nodal_fields.h>
+
+#include <deal.II/numerics/vector_tools_interpolate.h>
+
 using namespace Verification;
 using namespace Signoton;
 
@@ -227,6 +231,82 @@ namespace
                << "D: " << report.round_off("column", worst, 1e-9) << std::endl;
   }
 
+  /** The displacement of the column, of which the stresses are linear. */
+  template <int dim>
+  class ColumnDisplacement : public Function<dim>
+  {
+  public:
+    ColumnDisplacement()
+      : Function<dim>(dim)
+    {}
+
+    double
+    value(const Point<dim> &p, const unsigned int c) const override
+    {
+      if (c + 1 < dim)
+        return 0.;
+      // E (1 - nu)/(1 + nu)/(1 - 2 nu)
+      const double lower = 1e8, upper = 1e7 * 0.6 / 1.4 / 0.2;
+      const auto   below = [](const double y) {
+        return -8.5e4 * y - 2e4 * (5. * y - 0.5 * y * y);
+      };
+      const auto above = [](const double y) {
+        return -1e4 * y - 1.5e4 * (10. * y - 0.5 * y * y);
+      };
+      const double y = p[dim - 1];
+      return y <= 5. ? below(y) / lower :
+                       below(5.) / lower + (above(y) - above(5.)) / upper;
+    }
+  };
+
+  template <int dim>
+  void
+  nodal_stress(Report &report)
+  {
+    Scene<dim> scene(MPI_COMM_WORLD, column(dim));
+    scene.build();
+    auto &space = *scene.model.space;
+    scene.model.mechanics->reinit();
+    VectorType u, interpolated = space.make_relevant_vector();
+    scene.model.mechanics->initialize_vector(u);
+    VectorTools::interpolate(space.mapping,
+                             space.dof_handler,
+                             ColumnDisplacement<dim>(),
+                             interpolated);
+    u.copy_locally_owned_data_from(interpolated);
+    const NodalFields<dim> nodes(scene.model, u);
+    double                 worst = 0.;
+    for (unsigned int k = 0; k < nodes.fields.size(); ++k)
+      for (const auto &cell : nodes.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            std::vector<types::global_dof_index> dofs(
+              GeometryInfo<dim>::vertices_per_cell);
+            cell->get_dof_indices(dofs);
+            for (const auto v : cell->vertex_indices())
+              {
+                const auto [vertical, lateral] =
+                  column_stress(cell->vertex(v)[dim - 1],
+                                cell->material_id() == 1);
+                const double found = nodes.fields[k][dofs[v]];
+                if (nodes.names[k] ==
+                    (dim == 2 ? "nodal_stress_yy" : "nodal_stress_zz"))
+                  worst = std::max(worst, std::abs(found - vertical));
+                if (nodes.names[k] == "nodal_stress_xx")
+                  worst = std::max(worst, std::abs(found - lateral));
+                if (nodes.names[k] == "nodal_pressure")
+                  worst =
+                    std::max(worst,
+                             std::abs(found + (vertical + 2. * lateral) / 3.));
+              }
+          }
+    worst = Utilities::MPI::max(worst, MPI_COMM_WORLD) / 1.85e5;
+    // of single precision
+    report.out << "column, nodal fields, " << dim
+               << "D: " << report.round_off("nodal fields", worst, 1e-6)
+               << std::endl;
+  }
+
   SceneFile
   shell(const std::string &radii, const unsigned int degree)
   {
@@ -345,6 +425,8 @@ main(int argc, char **argv)
           patch(report, dim, p);
         column_at_rest(report, dim);
       }
+    nodal_stress<2>(report);
+    nodal_stress<3>(report);
     if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
       rims(report);
   });

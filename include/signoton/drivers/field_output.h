@@ -8,9 +8,10 @@ namespace Signoton
 {
   /**
    * Fields for ParaView: a snapshot for some steps, and `fields.pvd` which
-   * lists them by time. Displacements and velocities are continuous; all else are averages
-   * over cells, because these stay admissible where point values extrapolated
-   * to nodes would not. What no material of the scene has is not written.
+   * lists them by time. Displacements and velocities are continuous. All else
+   * are averages over cells, which stay admissible; the stress is also there as
+   * NodalFields, whose names begin with `nodal_`. What no material of the scene
+   * has is not written.
    */
   template <int dim>
   class FieldOutput
@@ -43,6 +44,11 @@ namespace Signoton
     }
 
   private:
+    using CellFields = std::vector<std::pair<std::string, Vector<float>>>;
+
+    CellFields
+    cell_fields(const VectorType &displacement);
+
     Model<dim>      &model;
     OutputDirectory &directory;
     List             list;
