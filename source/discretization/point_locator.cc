@@ -102,6 +102,21 @@ namespace Signoton
         }
       return unit;
     }
+
+    /** Of two that are as close by symmetry, the same on any number of ranks. */
+    template <typename Nearest>
+    bool
+    is_better(const Nearest &a, const Nearest &b)
+    {
+      const double difference = b.distance - a.distance;
+      const double equal      = 1e-9 * a.cell_size;
+      return difference > equal ||
+             (difference >= -equal &&
+              std::lexicographical_compare(a.point.begin_raw(),
+                                           a.point.end_raw(),
+                                           b.point.begin_raw(),
+                                           b.point.end_raw()));
+    }
   } // namespace
 
   template <int dim>
@@ -296,13 +311,13 @@ namespace Signoton
         {
           const Point<dim> p = space.mapping.transform_unit_to_real_cell(
             cell, project_to_face<dim>(space.mapping, cell, f, lost));
-          if (const double distance = p.distance(lost);
-              distance < best.distance)
-            best = {distance,
-                    cell->diameter(),
-                    p,
-                    cell->face(f)->center(true).distance(
-                      cell->face(f)->center())};
+          const Nearest there = {p.distance(lost),
+                                 cell->diameter(),
+                                 p,
+                                 cell->face(f)->center(true).distance(
+                                   cell->face(f)->center())};
+          if (is_better(there, best))
+            best = there;
         }
   }
 
@@ -338,21 +353,11 @@ namespace Signoton
                             lost[i],
                             best[i]);
         }
-    // of two that are as close by symmetry, the same on any number of ranks
     for (const auto &others :
          Utilities::MPI::all_gather(space.communicator, best))
       for (unsigned int i = 0; i < best.size(); ++i)
-        {
-          const double difference = others[i].distance - best[i].distance;
-          const double equal      = 1e-9 * best[i].cell_size;
-          if (difference < -equal ||
-              (difference <= equal &&
-               std::lexicographical_compare(others[i].point.begin_raw(),
-                                            others[i].point.end_raw(),
-                                            best[i].point.begin_raw(),
-                                            best[i].point.end_raw())))
-            best[i] = others[i];
-        }
+        if (is_better(others[i], best[i]))
+          best[i] = others[i];
     return best;
   }
 

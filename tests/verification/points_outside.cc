@@ -117,6 +117,20 @@ namespace
                    0.);
   }
 
+  /** As close to one face as to the next: whoever has them, one is taken. */
+  void
+  tie(Report &report)
+  {
+    SceneFile file = ring(1);
+    file.set({"Boundaries", "inner"}, "Pressure", "0");
+    file.set({"Point forces", "push"}, "Point", "0.68, 0.68");
+    file.set({"Point forces", "push"}, "Force", "3; 0");
+    file.set({"Refinement"}, "Cycles in first step", "1");
+    const auto line = run(file).back();
+    report.out << "tie, " << value(line, "cells")
+               << " cells: " << value(line, "external work") << std::endl;
+  }
+
   /** What is outside at the start. */
   void
   at_the_start(Report &report)
@@ -148,6 +162,7 @@ main(int argc, char **argv)
   return Verification::main(argc, argv, [](Report &report) {
     probes(report);
     forces(report);
+    tie(report);
     at_the_start(report);
   });
 }
