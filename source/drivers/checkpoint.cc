@@ -118,15 +118,6 @@ namespace Signoton
   } // namespace
 
   template <int dim>
-  const std::vector<std::string> Checkpoint<dim>::files = {
-    "numbers",
-    "room",
-    "mesh",
-    "mesh.info",
-    "mesh_fixed.data",
-    "mesh_variable.data"};
-
-  template <int dim>
   Checkpoint<dim>::Checkpoint(Model<dim> &model, const std::string &directory)
     : model(model)
     , directory(directory)

@@ -114,8 +114,9 @@ namespace
     const double states[][3] = {{0., -1.14498817e-3, -1.30419624e-4},
                                 {0., -6e-3, 5.25253167e-3},
                                 {0.01, -6e-3, 0.}};
-    for (const auto &[lambda, axial, table] : states)
+    for (const auto &state : states)
       {
+        const double lambda = state[0], axial = state[1], table = state[2];
         const Sand   sand{1., 0.6, 0.5, lambda};
         double       lateral = 0.;
         const double error =
@@ -196,8 +197,10 @@ namespace
                                 {1.2, -1., 0., 2.8},
                                 {1.2, 1., 0., 0.051282},
                                 {0.3, 1., 0.01, 0.028}};
-    for (const auto &[kappa, sign, lambda, table] : states)
+    for (const auto &state : states)
       {
+        const double kappa = state[0], sign = state[1], lambda = state[2],
+                     table = state[3];
         const Sand   sand{2., 0.6, kappa, lambda};
         const double strain = 1e-3 * sign;
         const double modulus =

@@ -13,7 +13,7 @@ using Signoton::SceneFile;
 
 namespace
 {
-  const double rho = 2000., mu = 8e7, c_s = 200., pi = numbers::PI;
+  const double mu = 8e7, c_s = 200., pi = numbers::PI; // rho is 2000
 
   /** Ratio of the speeds of Rayleigh and S waves. */
   double

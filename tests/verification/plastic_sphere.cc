@@ -22,7 +22,7 @@ main(int argc, char **argv)
       {
         const double p =
           2. * Y * std::log(c / a) + 2. / 3. * Y * (1. - std::pow(c / b, 3));
-        const auto u = [&](const double r, const double radial_stress) {
+        const auto u = [&, c = c](const double r, const double radial_stress) {
           return ((1. - 2. * nu) * r * radial_stress +
                   (1. - nu) * Y * c * c * c / (r * r)) /
                  E;

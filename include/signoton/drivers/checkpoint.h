@@ -15,7 +15,12 @@ namespace Signoton
   {
   public:
     /** All files that a checkpoint may have. */
-    static const std::vector<std::string> files;
+    inline static const std::vector<std::string> files = {"numbers",
+                                                          "room",
+                                                          "mesh",
+                                                          "mesh.info",
+                                                          "mesh_fixed.data",
+                                                          "mesh_variable.data"};
 
     /** @param directory where it is, or is to be */
     Checkpoint(Model<dim> &model, const std::string &directory);
