@@ -3,6 +3,7 @@
 
 #include <signoton/base/blas.h>
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -16,7 +17,9 @@ namespace Signoton
    * lives; one thread a rank, in the BLAS as well. They are told the name of
    * the program alone: PETSc, where deal.II has it, would read our command
    * line as its own, answer `--help`, and print the options that it did not
-   * use to standard output, into what is written there.
+   * use to standard output, into what is written there. What deal.II has not
+   * implemented is an exception, as are the assertions of a debug build: newer
+   * versions end the program by a signal otherwise.
    */
   class MPISession
   {
@@ -28,6 +31,7 @@ namespace Signoton
       , mpi(count, arguments, 1)
     {
       BLAS::use_one_thread();
+      deal_II_exceptions::disable_abort_on_exception();
     }
 
   private:
