@@ -123,6 +123,8 @@ namespace Signoton
       limit(RLIMIT_CPU, std::ceil(limits.seconds) + 1.);
       limit(RLIMIT_AS, address_space() + limits.bytes);
       limit(RLIMIT_CORE, 0.);
+      // libraries may catch std::bad_alloc and throw what says less
+      std::set_new_handler([] { end("", Ending::out_of_memory); });
       try
         {
           end(job(), Ending::done);
