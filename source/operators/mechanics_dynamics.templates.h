@@ -242,6 +242,7 @@ namespace Signoton
     VectorType       &force,
     DynamicSums      &sums)
   {
+    const FloatingPointTraps   traps;
     Rheology::Response<Number> response;
     auto accepted = Rheology::make_history<Number>(law), next = accepted;
     // with energies, a report may follow that looks at the step once more

@@ -1,6 +1,7 @@
 #ifndef signoton_operators_mechanics_kernel_h
 #define signoton_operators_mechanics_kernel_h
 
+#include <signoton/base/floating_point_traps.h>
 #include <signoton/operators/mechanics.h>
 #include <signoton/state/point_history.h>
 #include <signoton/tensors/embedding.h>

@@ -333,7 +333,8 @@ namespace Signoton
   {
     constexpr bool         symmetric = Law::has_potential;
     constexpr unsigned int n_tangent = n_tangent_entries<Embedding>(symmetric);
-    const bool             with_tangent =
+    const FloatingPointTraps traps;
+    const bool               with_tangent =
       tangent_offset[run.second] > tangent_offset[run.first];
     const bool                 shocked = !dilatation.empty();
     const Shock                shock   = shock_of(material_of_batch[run.first]);
@@ -423,8 +424,9 @@ namespace Signoton
     Cell        &cell,
     const double regularization) const
   {
-    const unsigned int batch   = cell.get_current_cell_index();
-    const auto        &elastic = elastic_tangents[material_of_batch[batch]];
+    const FloatingPointTraps traps;
+    const unsigned int       batch = cell.get_current_cell_index();
+    const auto &elastic            = elastic_tangents[material_of_batch[batch]];
     // linear materials have no tangent at every point
     const unsigned int n_kept =
       (tangent_offset[batch + 1] - tangent_offset[batch]) / n_points;

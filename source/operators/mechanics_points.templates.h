@@ -19,6 +19,7 @@ namespace Signoton
                                                 const VectorType &displacement,
                                                 const Visitor    &visitor)
   {
+    const FloatingPointTraps   traps;
     Rheology::Response<Number> response;
     auto accepted = Rheology::make_history<Number>(law), next = accepted;
     for (unsigned int batch = run.first; batch < run.second; ++batch)

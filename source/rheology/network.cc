@@ -1,3 +1,4 @@
+#include <signoton/base/floating_point_traps.h>
 #include <signoton/rheology/network.h>
 
 #include <algorithm>
@@ -267,6 +268,7 @@ namespace Signoton::Rheology
                   const double  *scalars,
                   const bool     with_tangent)
   {
+    const FloatingPointTraps traps;
     accepted_scalars = scalars;
     for (unsigned int c = 0; c < 6; ++c)
       {
