@@ -4,6 +4,7 @@
 // and a sphere under pressure, and a plate with a hole, at their rims.
 
 #include "box_scene.h"
+#include "shell_scene.h"
 
 #include <signoton/drivers/nodal_fields.h>
 
@@ -307,24 +308,6 @@ namespace
                << std::endl;
   }
 
-  SceneFile
-  shell(const std::string &radii, const unsigned int degree)
-  {
-    SceneFile file;
-    file.set({}, "Dimension", "2");
-    file.set({"Geometry"}, "Generator", "quarter_hyper_shell");
-    file.set({"Geometry"}, "Arguments", "0, 0 : " + radii + " : 3 : true");
-    const SceneFile::Path steel = {"Materials", "steel"};
-    file.set(steel, "Rheology", "elastic");
-    file.set(steel, "Young modulus", "1000");
-    file.set(steel, "Poisson ratio", "0.3");
-    for (const std::string side : {"plane x", "plane y"})
-      file.set({"Boundaries", side}, "Symmetry", "true");
-    file.set({"Discretization"}, "Degree", std::to_string(degree));
-    file.set({"Output"}, "Probe quantities", "stress");
-    return file;
-  }
-
   /** Stresses at the rim under refinement: their error at the end, and its
    *  order in the last step. */
   void
@@ -363,7 +346,7 @@ namespace
     for (const unsigned int p : {1U, 2U})
       {
         const std::string of_degree = ", degree " + std::to_string(p);
-        SceneFile         ring      = shell("1 : 2", p);
+        SceneFile         ring      = quarter_shell("1 : 2", p);
         ring.set({"Boundaries", "inner"}, "Pressure", "1");
         ring.set({"Output"}, "Probe points", "1, 0; " + slope);
         ring.set({"Output"}, "Probe quantities", "stress, principal stress");
@@ -395,7 +378,8 @@ namespace
       }
     // Kirsch: a hole in a sheet pulled along x, cut out at four radii, where
     // the traction of the infinite sheet acts
-    SceneFile         plate = shell("1 : 4", 2);
+    SceneFile plate = quarter_shell("1 : 4", 2);
+    plate.set({"Output"}, "Probe quantities", "stress");
     const std::string c2 = "((x^2 - y^2)/16)", s2 = "(2*x*y/16)",
                       radial =
                         "0.5*((1 - 1/16) + (1 - 4/16 + 3/256)*" + c2 + ")",

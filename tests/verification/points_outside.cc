@@ -2,7 +2,7 @@
 // refined: the nearest point of the body takes their place, or the run is
 // refused. A force on one still acts in full.
 
-#include "box_scene.h"
+#include "shell_scene.h"
 
 using namespace Verification;
 using namespace Signoton;
@@ -14,18 +14,8 @@ namespace
   SceneFile
   ring(const unsigned int degree)
   {
-    SceneFile file;
-    file.set({}, "Dimension", "2");
-    file.set({"Geometry"}, "Generator", "quarter_hyper_shell");
-    file.set({"Geometry"}, "Arguments", "0, 0 : 1 : 2 : 3 : true");
-    const SceneFile::Path steel = {"Materials", "steel"};
-    file.set(steel, "Rheology", "elastic");
-    file.set(steel, "Young modulus", "1000");
-    file.set(steel, "Poisson ratio", "0.3");
-    for (const std::string side : {"plane x", "plane y"})
-      file.set({"Boundaries", side}, "Symmetry", "true");
+    SceneFile file = quarter_shell("1 : 2", degree);
     file.set({"Boundaries", "inner"}, "Pressure", "1");
-    file.set({"Discretization"}, "Degree", std::to_string(degree));
     file.set({"Load steps"}, "Step size", "1");
     file.set({"Refinement"}, "Cycles in first step", "3");
     file.set({"Refinement"}, "Refine fraction", "1");
