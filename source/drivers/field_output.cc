@@ -4,6 +4,7 @@
 
 #include <deal.II/numerics/data_out.h>
 
+#include <optional>
 #include <sstream>
 
 namespace Signoton
@@ -112,11 +113,15 @@ namespace Signoton
     const auto cell_data = cell_fields(displacement);
     for (const auto &[name, values] : cell_data)
       output.add_data_vector(values, name, DataOut<dim>::type_cell_data);
-    const NodalFields<dim> nodes(model, displacement);
-    for (unsigned int i = 0; i < nodes.fields.size(); ++i)
-      output.add_data_vector(nodes.dof_handler,
-                             nodes.fields[i],
-                             nodes.names[i]);
+    std::optional<NodalFields<dim>> nodes; // in use until the end
+    if (model.output.nodal_stress)
+      {
+        nodes.emplace(model, displacement);
+        for (unsigned int i = 0; i < nodes->fields.size(); ++i)
+          output.add_data_vector(nodes->dof_handler,
+                                 nodes->fields[i],
+                                 nodes->names[i]);
+      }
     output.build_patches(model.space->mapping,
                          model.space->degree,
                          DataOut<dim>::curved_boundary);

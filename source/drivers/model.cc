@@ -27,6 +27,11 @@ namespace Signoton
                             "Write fields for ParaView every n-th step and "
                             "after the last; 0: never.",
                             Patterns::Integer(0));
+    handler.add_parameter("Nodal stress",
+                          nodal_stress,
+                          "Write the stress at nodes beside its averages over "
+                          "cells: better at surfaces, and about as many "
+                          "numbers again.");
     handler.add_parameter("Checkpoint every",
                           checkpoint_every,
                           "Write a checkpoint every n-th step and after the "

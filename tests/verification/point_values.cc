@@ -10,6 +10,8 @@
 
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
+#include <fstream>
+
 using namespace Verification;
 using namespace Signoton;
 
@@ -308,6 +310,37 @@ namespace
                << std::endl;
   }
 
+  /** A key tells whether fields for ParaView have it. */
+  void
+  nodal_key(Report &report)
+  {
+    const std::string ending =
+      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 ? "vtu" : "pvtu";
+    for (const std::string key : {"true", "false"})
+      {
+        Options options;
+        options.scene_file = source_directory + "/tests/scenes/plate_hole.prm";
+        options.output_directory = "fields " + key;
+        options.overrides        = {"Output/Fields every=1",
+                                    "Output/Nodal stress=" + key};
+        report.require(
+          "a run with fields",
+          run_scene(MPI_COMM_WORLD, options) == ExitStatus::completed ? 0. : 1.,
+          0.);
+        std::ifstream     file("fields " + key + "/fields-0001." + ending,
+                           std::ios::binary);
+        const std::string text((std::istreambuf_iterator<char>(file)),
+                               std::istreambuf_iterator<char>());
+        const auto        has = [&](const std::string &name) {
+          return text.find('"' + name + '"') != std::string::npos;
+        };
+        report.require("cell fields", has("stress_yy") ? 0. : 1., 0.);
+        report.require("nodal fields, " + key,
+                       has("nodal_stress_yy") == (key == "true") ? 0. : 1.,
+                       0.);
+      }
+  }
+
   /** Stresses at the rim under refinement: their error at the end, and its
    *  order in the last step. */
   void
@@ -411,6 +444,7 @@ main(int argc, char **argv)
       }
     nodal_stress<2>(report);
     nodal_stress<3>(report);
+    nodal_key(report);
     if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
       rims(report);
   });

@@ -20,6 +20,7 @@ namespace Signoton
 
     std::string  directory        = "";
     unsigned int fields_every     = 1;
+    bool         nodal_stress     = true;
     unsigned int checkpoint_every = 0;
     std::string  probe_text       = "";
     std::string  probe_quantities = "displacement, velocity";
