@@ -327,6 +327,7 @@ namespace
           "a run with fields",
           run_scene(MPI_COMM_WORLD, options) == ExitStatus::completed ? 0. : 1.,
           0.);
+        MPI_Barrier(MPI_COMM_WORLD); // one rank writes what all read
         std::ifstream     file("fields " + key + "/fields-0001." + ending,
                            std::ios::binary);
         const std::string text((std::istreambuf_iterator<char>(file)),
