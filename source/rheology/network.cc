@@ -50,13 +50,18 @@ namespace Signoton::Rheology
   }
 
   Vector6
-  Network::contact_strain() const
+  Network::contact_strain(const unsigned int node) const
   {
+    if (nodes[node].kind == Kind::contact)
+      return nodes[node].strain;
     Vector6 sum{};
-    if (nodes[0].kind == Kind::series)
-      for (const unsigned int c : nodes[0].parts)
-        if (nodes[c].has_contact)
-          sum = add_scaled(sum, 1., nodes[c].strain);
+    for (const unsigned int c : nodes[node].parts)
+      if (nodes[c].has_contact)
+        {
+          if (nodes[node].kind == Kind::parallel)
+            return contact_strain(c);
+          sum = add_scaled(sum, 1., contact_strain(c));
+        }
     return sum;
   }
 

@@ -76,6 +76,23 @@ namespace
     return result;
   }
 
+  /** The volume strain of the contacts after one step to a given one. */
+  double
+  contact_strain(const std::string &scheme, const double strain)
+  {
+    Network network(parse_scheme(scheme, "test"));
+    network.set_time_step(1.);
+    const std::vector<Vector6> tensors(network.n_tensors(), Vector6{});
+    const std::vector<double>  scalars(network.n_scalars(), 0.);
+    const double               each = strain / 3.;
+    network.update({{each, each, each, 0., 0., 0.}},
+                   tensors.data(),
+                   scalars.data(),
+                   false);
+    const Vector6 open = network.contact_strain();
+    return open[0] + open[1] + open[2];
+  }
+
   /** Largest error at all steps. */
   double
   error(const std::vector<double> &found,
@@ -342,5 +359,21 @@ main()
               0.,
               3.,
               true);
+  // contacts in series with springs and in parallel to others
+  const std::string branch = series(second + c + contact),
+                    grains = parallel(spring + c + branch),
+                    nested = series(spring + c + grains);
+  const auto is_near       = [](const double x, const double y) {
+    return std::abs(x - y) < 1e-12;
+  };
+  verdict("strain of contacts, in series",
+          is_near(contact_strain(branch, 0.3), 0.3));
+  verdict("strain of contacts, in a parallel group",
+          is_near(contact_strain(grains, 0.3), 0.3));
+  // two equal springs in series share the strain
+  verdict("strain of contacts, in a group of a group",
+          is_near(contact_strain(nested, 0.3), 0.15));
+  verdict("strain of contacts, closed",
+          is_near(contact_strain(nested, -0.3), 0.));
   return verdict.status();
 }

@@ -103,9 +103,10 @@ namespace Signoton::Rheology
     Region
     region() const;
 
-    /** Strain of the parts of the whole, in series, that hold a contact. */
+    /** Strain of the contacts of a part, or of the whole: the sum in series, and
+     *  that of the first that holds a contact in parallel. */
     Vector6
-    contact_strain() const;
+    contact_strain(const unsigned int node = 0) const;
 
     /** Strain of the parts that hold a hinge, but no contact. */
     Vector6
