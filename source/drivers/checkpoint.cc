@@ -38,7 +38,7 @@ namespace Signoton
       return {{"format", format},
               {"dimension", dim},
               {"degree", model.space->degree},
-              {"numbers of history a point", model.mechanics->history_width()}};
+              {"numbers of history a point", model.mechanics->state_width()}};
     }
 
     /** Whether a file of so many bytes can be made. The free space of the disk

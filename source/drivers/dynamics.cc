@@ -29,13 +29,13 @@ namespace Signoton
     supports.reinit(space, model.conditions);
     absorbing.reinit(space, model.materials, model.conditions, supports);
     loads.reinit();
-    const bool remembers = model.mechanics->history_width() > 0;
+    const bool remembers = model.mechanics->state_width() > 0;
     if (remembers && history_space)
       history_space->distribute_dofs();
     else if (remembers)
       history_space =
         std::make_unique<PointSpace<dim>>(space,
-                                          model.mechanics->history_width());
+                                          model.mechanics->state_width());
 
     for (VectorType *vector : {&displacement,
                                &velocity,
@@ -402,7 +402,7 @@ namespace Signoton
              {&displacement, &velocity, &acceleration, &internal})
           vector->local_element(i) = 0.;
     evaluate_dashpots();
-    model.mechanics->remember_dilatation(displacement);
+    model.mechanics->begin_step(displacement);
     output.resume(checkpoint, n_reported);
     return true;
   }

@@ -195,7 +195,7 @@ namespace Signoton
     // Back to the admissible set, at fixed strain and in no time: dampers in
     // series stand still. Those in parallel take up the interpolated strain in
     // the first turn, against what would be a huge rate, and rest in the second.
-    mechanics->remember_dilatation(displacement);
+    mechanics->set_shock_viscosity({});
     mechanics->set_time_step(1e-6 * time_step);
     DynamicSums own;
     for (unsigned int turn = 0; turn < 2; ++turn)
@@ -203,15 +203,26 @@ namespace Signoton
         own = mechanics->dynamic_force(displacement, internal, true, -1.);
         mechanics->commit();
       }
-    mechanics->set_time_step(time_step);
     // the new points see the initial state anew
     receipt.initial += rest_energy - rest_before;
     receipt.stored = sum<1>({{own.stored}})[0];
     balance_transfer(missing, before);
 
+    resist_motion();
     evaluate_dashpots();
     accelerate(0.);
     choose_step();
+  }
+
+  template <int dim>
+  void
+  Dynamics<dim>::resist_motion()
+  {
+    const auto &mechanics = model.mechanics;
+    mechanics->set_time_step(time_step);
+    mechanics->set_shock_viscosity(model.time_integration.shock_viscosity);
+    mechanics->begin_step(displacement);
+    mechanics->add_shock_force(internal);
   }
 
   template <int dim>
@@ -287,6 +298,7 @@ namespace Signoton
   template void   Dynamics<dim>::refuse_jump();                              \
   template bool   Dynamics<dim>::mark();                                     \
   template void   Dynamics<dim>::transfer();                                 \
+  template void   Dynamics<dim>::resist_motion();                            \
   template void   Dynamics<dim>::balance_transfer(VectorType, const double); \
   template bool   Dynamics<dim>::slow_down(const std::vector<bool> &,        \
                                          const double);

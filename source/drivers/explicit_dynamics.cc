@@ -9,38 +9,11 @@ namespace Signoton
   ExplicitDynamics<dim>::setup()
   {
     Dynamics<dim>::setup();
-    undamped_step = model.mechanics->stable_time_step() *
-                    model.wave_refinement.finest_part(*model.space);
-    damp();
-  }
-
-  template <int dim>
-  void
-  ExplicitDynamics<dim>::damp()
-  {
+    stable_step = model.mechanics->stable_time_step() *
+                  model.wave_refinement.finest_part(*model.space);
     // viscosity shortens the stable step by the part of critical damping
-    const ShockViscosity &viscosity = model.time_integration.shock_viscosity;
-    const auto            with      = [&](const double closing) {
-      const double part = viscosity.linear + viscosity.quadratic * closing;
-      return undamped_step * (std::sqrt(1. + part * part) - part);
-    };
-    stable_step       = with(fastest_closing);
-    usual_stable_step = with(0.);
-  }
-
-  template <int dim>
-  void
-  ExplicitDynamics<dim>::follow_shock(const double closing)
-  {
-    if (!model.time_integration.shock_viscosity)
-      return;
-    const double all = Utilities::MPI::max(closing, model.communicator);
-    if (!(all > fastest_closing))
-      return;
-    fastest_closing = all;
-    damp();
-    if (time_step > stable_step && !this->is_finished())
-      choose_step();
+    const double part = model.time_integration.shock_viscosity.bound();
+    stable_step *= std::sqrt(1. + part * part) - part;
   }
 
   template <int dim>
@@ -55,13 +28,10 @@ namespace Signoton
                         " s",
                       "leave it out: 'Safety' chooses a part of the stable "
                       "step");
-    // only shocks that use up the safety make steps shorter
-    const double usual = parameters.safety * usual_stable_step;
-    const double wanted =
-      parameters.time_step > 0. ? parameters.time_step :
-      usual <= stable_step      ? usual :
-                                  parameters.safety * stable_step;
-    const double all = (parameters.end - time) / wanted;
+    const double wanted = parameters.time_step > 0. ?
+                            parameters.time_step :
+                            parameters.safety * stable_step;
+    const double all    = (parameters.end - time) / wanted;
     check_steps(model.file.where({"Time integration"},
                                  parameters.time_step > 0. ? "Time step" :
                                                              "End time"),
@@ -110,7 +80,6 @@ namespace Signoton
   {
     auto numbers = Dynamics<dim>::numbers_to_keep();
     numbers.emplace_back("largest displacement", &largest_displacement);
-    numbers.emplace_back("fastest closing", &fastest_closing);
     return numbers;
   }
 
@@ -189,7 +158,6 @@ namespace Signoton
         0.5 * time_step * acceleration.local_element(i);
     this->evaluate_dashpots();
     account(own, before);
-    follow_shock(own.closing);
     if (std::isfinite(receipt.kinetic))
       return;
     refuse_trouble_of_loads(model);

@@ -119,16 +119,21 @@ namespace Signoton
                           "oscillation that is much faster; 1: all, 0: "
                           "nothing.",
                           Patterns::Double(0., 1.));
-    handler.add_parameter("Linear shock viscosity",
-                          shock_viscosity.linear,
-                          "Without unit; damps oscillations behind fronts. By "
-                          "default zero if all materials are elastic.",
-                          Patterns::Double(0., 2.));
-    handler.add_parameter("Quadratic shock viscosity",
-                          shock_viscosity.quadratic,
-                          "Without unit; spreads strong fronts over cells. By "
-                          "default zero if all materials are elastic.",
-                          Patterns::Double(0., 20.));
+    handler.add_parameter(
+      "Linear shock viscosity",
+      shock_viscosity.linear,
+      "Without unit; as a part of the impedance of the "
+      "closed medium, what damps oscillations behind fronts "
+      "and stops contacts that close. By default zero if "
+      "all materials are elastic.",
+      Patterns::Double(0., 2.));
+    handler.add_parameter(
+      "Quadratic shock viscosity",
+      shock_viscosity.quadratic,
+      "Without unit; spreads fronts that close contacts over "
+      "twice to three times its root in cells. By default "
+      "zero if all materials are elastic.",
+      Patterns::Double(0., 100.));
     handler.add_parameter("Quiet zones",
                           quiet_zones,
                           "Explicit: skip cells that no wave has reached.");

@@ -2,6 +2,8 @@
 #define signoton_operators_mechanics_dynamics_templates_h
 
 #include <signoton/base/function.h>
+#include <signoton/discretization/body_box.h>
+#include <signoton/rheology/classification.h>
 
 #include "mechanics_kernel.h"
 
@@ -31,25 +33,55 @@ namespace Signoton
     shock_viscosity = viscosity;
   }
 
-  template <typename Embedding, int degree>
-  auto
-  MechanicsKernel<Embedding, degree>::shock_of(
-    const unsigned int material) const -> Shock
+  /** $\sqrt{(k+4\mu/3)/\rho}$ where all contacts are open, in m/s. */
+  inline double
+  loosened_speed(const Rheology::Material &material)
   {
-    if (!shock_viscosity)
-      return {};
-    const double density = materials[material].density;
-    return {Number(1. / time_step),
-            Number(density * shock_viscosity.linear *
-                   longitudinal_speed[material]),
-            Number(density * shock_viscosity.quadratic),
-            longitudinal_speed[material]};
+    const Moduli left = Rheology::loosened_moduli(material.scheme());
+    return std::sqrt((left.bulk + 4. / 3. * left.shear) / material.density);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::find_shock_materials()
+  {
+    shock_materials.clear();
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      {
+        // Fibers are taut, contacts are closed, on one side of zero.
+        const auto size_of_stress = [&](const double dilatation) {
+          Rheology::Response<double> response;
+          std::visit(
+            [&](const auto &law) {
+              const auto virgin = Rheology::make_history<double>(law);
+              auto       next   = virgin;
+              law.template update<Rheology::energies>(
+                add_spherical(Tensor2<>(), dilatation / 3.),
+                virgin,
+                next,
+                response);
+            },
+            laws[m]);
+          return std::abs(trace(response.stress));
+        };
+        constexpr double small = 1e-9;
+        const bool       stiffens =
+          size_of_stress(small) > 1.01 * size_of_stress(-small);
+        shock_materials.push_back(
+          {materials[m].density,
+           longitudinal_speed[m],
+           std::sqrt(elasticity[m].shear / materials[m].density),
+           loosened_speed(materials[m]),
+           materials[m].has_cone(),
+           stiffens ? 1. : -1.});
+      }
   }
 
   template <typename Embedding, int degree>
   void
   MechanicsKernel<Embedding, degree>::find_sizes()
   {
+    find_shock_materials();
     const unsigned int n_batches = data.n_cell_batches();
     cell_size.resize(n_batches);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
@@ -59,12 +91,85 @@ namespace Signoton
              i < data.n_active_entries_per_cell_batch(batch);
              ++i)
           cell_size[batch][i] =
-            data.get_cell_iterator(batch, i)->minimum_vertex_distance() /
-            degree;
+            part_of_size *
+            data.get_cell_iterator(batch, i)->minimum_vertex_distance();
       }
-    dilatation.resize(n_batches * n_points);
-    for (Number &value : dilatation)
-      value = Number(0.);
+    const auto box = body_box(space.mesh);
+    extent         = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      extent = std::max(extent, box.side_length(d));
+    sensor.reinit(space.mesh);
+    initialize_mesh_vector(step_begin);
+    step_begin.update_ghost_values();
+  }
+
+  template <typename Embedding, int degree>
+  auto
+  MechanicsKernel<Embedding, degree>::shock_of(const unsigned int batch) const
+    -> ShockStress<Number>
+  {
+    const ShockMaterial &material = shock_materials[material_of_batch[batch]];
+    ShockStress<Number>  result;
+    result.rate         = 1. / time_step;
+    result.size         = cell_size[batch];
+    result.sign         = material.stiffening;
+    result.opens        = material.opens;
+    result.bulk_modulus = elasticity[material_of_batch[batch]].bulk;
+    result.impedance    = material.density * material.longitudinal_speed;
+    for (unsigned int i = 0; i < data.n_active_entries_per_cell_batch(batch);
+         ++i)
+      {
+        const ShockCoefficients of_cell =
+          shock_coefficients(sensor,
+                             sensor.index(data.get_cell_iterator(batch, i)),
+                             material,
+                             shock_viscosity,
+                             cell_size[batch][i],
+                             extent);
+        result.linear[i]    = of_cell.linear;
+        result.quadratic[i] = of_cell.quadratic;
+        result.cap[i]       = of_cell.cap;
+        result.opening[i]   = of_cell.opening;
+        result.shear[i]     = of_cell.shear;
+        result.freedom[i]   = of_cell.freedom;
+      }
+    return result;
+  }
+
+  template <typename Embedding, int degree>
+  auto
+  MechanicsKernel<Embedding, degree>::tell_neighbors(
+    const unsigned int         batch,
+    const ShockStress<Number> &shock,
+    const Motion              &motion) -> Number
+  {
+    Number result = 0.;
+    for (unsigned int i = 0; i < data.n_active_entries_per_cell_batch(batch);
+         ++i)
+      {
+        const Tensor2<>  change = lane(motion.change, i);
+        ShockReport<dim> report;
+        for (unsigned int e = 0; e < n_tensor_entries; ++e)
+          report.rate[e] =
+            (e < 3 ? 1. : std::sqrt(2.)) / (n_points * time_step) *
+            change.access_raw_entry(Embedding::tensor_entries[e]);
+        report.stress    = lane(motion.stress, i).norm() / n_points;
+        report.voids     = motion.voids[i] / n_points;
+        report.elastic   = motion.elastic[i] / n_points;
+        report.viscous   = motion.viscous[i] / n_points;
+        report.viscosity = shock.shear[i];
+        result[i] =
+          motion.volume[i] *
+          Signoton::tell_neighbors(sensor,
+                                   sensor.index(
+                                     data.get_cell_iterator(batch, i)),
+                                   shock_materials[material_of_batch[batch]],
+                                   report,
+                                   shock.freedom[i],
+                                   cell_size[batch][i],
+                                   time_step);
+      }
+    return result;
   }
 
   template <typename Embedding, int degree>
@@ -195,12 +300,13 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
+  template <typename Stress>
   void
-  MechanicsKernel<Embedding, degree>::integrate_rest()
+  MechanicsKernel<Embedding, degree>::integrate_stress(const Stress &stress,
+                                                       VectorType   &force)
   {
     VectorType unused;
     data.initialize_dof_vector(unused, mesh_constraints);
-    data.initialize_dof_vector(rest_force, mesh_constraints);
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &dst, const auto &, const Range &range) {
         Cell cell(data, mesh_constraints);
@@ -208,13 +314,25 @@ namespace Signoton
           {
             cell.reinit(batch);
             for (unsigned int q = 0; q < n_points; ++q)
-              submit(cell, q, tensor_at(rest_stress, batch, q));
+              submit(cell, q, stress(batch, q));
             cell.integrate(cell_flags<Embedding>);
             cell.distribute_local_to_global(dst);
           }
       },
-      rest_force,
+      force,
       unused);
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::integrate_rest()
+  {
+    data.initialize_dof_vector(rest_force, mesh_constraints);
+    integrate_stress(
+      [&](const unsigned int batch, const unsigned int q) {
+        return tensor_at(rest_stress, batch, q);
+      },
+      rest_force);
   }
 
   template <typename Embedding, int degree>
@@ -232,6 +350,42 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
+  template <typename Law>
+  auto
+  MechanicsKernel<Embedding, degree>::resist(
+    const ShockStress<Number>  &shock,
+    const Tensor2<Number>      &change,
+    const Tensor2<Number>      &strain,
+    Rheology::Response<Number> &response,
+    Motion                     &motion) const -> Number
+  {
+    const Number zero(0.);
+    if (shock.opens)
+      {
+        const Number of_spring =
+          trace(response.stress) / (3. * shock.bulk_modulus);
+        Number open = trace(strain) - of_spring;
+        if constexpr (std::is_same_v<Law, Rheology::General>)
+          open = trace(response.contact_strain);
+        // but for round-off
+        const Number noise =
+          1e-12 * (std::abs(trace(strain)) + std::abs(of_spring));
+        open = Number(-shock.sign) * open;
+        motion.voids += compare_and_apply_mask<SIMDComparison::less_than>(noise,
+                                                                          open,
+                                                                          open,
+                                                                          zero);
+        motion.elastic += std::abs(of_spring);
+      }
+    const Tensor2<Number> viscous = shock.stress(change);
+    response.stress += viscous;
+    motion.viscous += (1. / 3.) * trace(viscous);
+    motion.change += change;
+    motion.stress += response.stress;
+    return shock.dissipation(change);
+  }
+
+  template <typename Embedding, int degree>
   template <unsigned int request, typename Law>
   void
   MechanicsKernel<Embedding, degree>::dynamic_run(
@@ -246,16 +400,21 @@ namespace Signoton
     Rheology::Response<Number> response;
     auto accepted = Rheology::make_history<Number>(law), next = accepted;
     // with energies, a report may follow that looks at the step once more
-    constexpr bool on_trial  = (request & Rheology::energies) != 0;
-    const bool     at_rest   = !rest_strain.empty();
-    const bool     shock     = !dilatation.empty();
-    const Shock    viscosity = shock_of(material_of_batch[run.first]);
+    constexpr bool on_trial = (request & Rheology::energies) != 0;
+    // shock viscosity asks for the strain of contacts
+    constexpr unsigned int with_contacts =
+      std::is_same_v<Law, Rheology::General> ? Rheology::energies : request;
+    const bool          at_rest = !rest_strain.empty();
+    const bool          shocked = bool(shock_viscosity);
+    std::optional<Cell> begin; // of the step, for shock viscosity
+    if (shocked)
+      begin.emplace(data, mesh_constraints);
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         const unsigned int n_lanes =
           data.n_active_entries_per_cell_batch(batch);
-        Number stored(0.), voids(0.), dissipated(0.), viscous(0.), shocked(0.),
-          closing(0.);
+        Number stored(0.), voids(0.), dissipated(0.), viscous(0.),
+          shocked_work(0.);
         cell.reinit(batch);
         cell.read_dof_values(displacement);
         if (is_quiet(cell))
@@ -274,15 +433,28 @@ namespace Signoton
         else
           {
             cell.evaluate(cell_flags<Embedding>);
+            ShockStress<Number> shock;
+            Motion              motion;
+            if (shocked)
+              {
+                shock = shock_of(batch);
+                begin->reinit(batch);
+                begin->read_dof_values(step_begin);
+                begin->evaluate(cell_flags<Embedding>);
+              }
             for (unsigned int q = 0; q < n_points; ++q)
               {
                 const Tensor2<Number> moved = strain(cell, q);
+                const Tensor2<Number> total =
+                  at_rest ? moved + tensor_at(rest_strain, batch, q) : moved;
                 read_history<Law>(history.accepted(batch, q), accepted);
-                const bool changed = law.template update<request>(
-                  at_rest ? moved + tensor_at(rest_strain, batch, q) : moved,
-                  accepted,
-                  next,
-                  response);
+                const bool changed = shocked ?
+                                       law.template update<with_contacts>(
+                                         total, accepted, next, response) :
+                                       law.template update<request>(total,
+                                                                    accepted,
+                                                                    next,
+                                                                    response);
                 if constexpr (on_trial)
                   write_history<Law>(next, history.trial(batch, q));
                 else if (changed)
@@ -299,25 +471,23 @@ namespace Signoton
                     dissipated += w * response.dissipation;
                     viscous += w * response.viscous_dissipation;
                   }
+                if (shocked)
+                  {
+                    motion.volume += w;
+                    shocked_work += w * resist<Law>(shock,
+                                                    moved - strain(*begin, q),
+                                                    total,
+                                                    response,
+                                                    motion);
+                  }
                 if (at_rest)
                   response.stress -= tensor_at(rest_stress, batch, q);
-                if (shock)
-                  {
-                    Number      &before   = dilatation[batch * n_points + q];
-                    const Number now      = trace(moved);
-                    const Number closed   = std::max(before - now, Number(0.));
-                    const Number distance = closed * cell_size[batch];
-                    const Number pressure = viscosity.pressure(distance);
-                    closing               = std::max(closing, distance);
-                    shocked += w * pressure * closed;
-                    response.stress =
-                      add_spherical(response.stress, Number(-pressure));
-                    before = now;
-                  }
                 submit(cell, q, response.stress);
               }
             cell.integrate(cell_flags<Embedding>);
             cell.distribute_local_to_global(force);
+            if (shocked)
+              shocked_work += tell_neighbors(batch, shock, motion);
           }
         for (unsigned int i = 0; i < n_lanes; ++i)
           {
@@ -325,11 +495,7 @@ namespace Signoton
             sums.voids += voids[i];
             sums.dissipated += dissipated[i];
             sums.viscous += viscous[i];
-            sums.shock += shocked[i];
-            if (shock)
-              sums.closing =
-                std::max(sums.closing,
-                         closing[i] * viscosity.rate[i] / viscosity.speed);
+            sums.shock += shocked_work[i];
           }
       }
   }
@@ -373,6 +539,8 @@ namespace Signoton
     });
     if (!rest_strain.empty())
       force += rest_force;
+    if (shock_viscosity)
+      begin_step(displacement);
     return sums;
   }
 
@@ -394,36 +562,58 @@ namespace Signoton
 
   template <typename Embedding, int degree>
   void
-  MechanicsKernel<Embedding, degree>::remember_dilatation(
-    const VectorType &displacement)
+  MechanicsKernel<Embedding, degree>::begin_step(const VectorType &displacement)
   {
-    if (dilatation.empty())
+    if (sensor.empty())
       return;
-    const VectorType &source = in_layout(displacement, mesh_constraints);
-    source.update_ghost_values();
-    Cell cell(data, mesh_constraints);
-    for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
-      {
-        cell.reinit(batch);
-        cell.read_dof_values(source);
-        cell.evaluate(cell_flags<Embedding>);
-        for (unsigned int q = 0; q < n_points; ++q)
-          dilatation[batch * n_points + q] = trace(strain(cell, q));
-      }
-    source.zero_out_ghost_values();
+    step_begin.copy_locally_owned_data_from(displacement);
+    step_begin.update_ghost_values();
+    sensor.look_around();
+  }
+
+  template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::add_shock_force(VectorType &force)
+  {
+    if (!shock_viscosity)
+      return;
+    VectorType of_shock;
+    data.initialize_dof_vector(of_shock, mesh_constraints);
+    integrate_stress(
+      [&](const unsigned int batch, const unsigned int) {
+        Tensor2<Number> stress;
+        for (unsigned int i = 0;
+             i < data.n_active_entries_per_cell_batch(batch);
+             ++i)
+          {
+            const double *told =
+              sensor[sensor.index(data.get_cell_iterator(batch, i))];
+            Tensor2<> rate;
+            for (unsigned int e = 0; e < n_tensor_entries; ++e)
+              rate.access_raw_entry(Embedding::tensor_entries[e]) =
+                told[e] / (e < 3 ? 1. : std::sqrt(2.));
+            set_lane(stress,
+                     i,
+                     add_spherical(Tensor2<>(told[Sensor::viscosity] *
+                                             deviatoric_part(rate)),
+                                   told[Sensor::viscous]));
+          }
+        return stress;
+      },
+      of_shock);
+    for (unsigned int i = 0; i < force.locally_owned_size(); ++i)
+      force.local_element(i) += of_shock.local_element(i);
   }
 
   template <typename Embedding, int degree>
   double
   MechanicsKernel<Embedding, degree>::stable_time_step()
   {
-    // The largest frequency of the body is not above that of a cell alone.
-    // For a cube of linear elements that is 2 c/h, in a mode of constant strain.
-    // Quadratic elements with a diagonal mass have sqrt(24) c/h in one
-    // dimension, and up to 15 % more in three. The hoop strain of cells on an
-    // axis of rotation doubles the frequency. tests/verification/stable_step
-    // compares all that with the power method.
-    const double factor = degree == 1 ? 1. : 1. / (1.15 * std::sqrt(6.));
+    // The largest frequency of the body is not above that of a cell alone, 2 c
+    // by the part of its size. The hoop strain of cells on an axis of rotation
+    // doubles it. tests/verification/stable_step compares all that with the
+    // power method.
+    const double           factor       = part_of_size;
     constexpr unsigned int n_extensions = Embedding::axisymmetric ? 3 : dim;
     std::vector<double>    size(materials.size(),
                              std::numeric_limits<double>::max());

@@ -3,6 +3,7 @@
 
 #include <signoton/base/floating_point_traps.h>
 #include <signoton/operators/mechanics.h>
+#include <signoton/operators/shock_viscosity.h>
 #include <signoton/state/point_history.h>
 #include <signoton/tensors/embedding.h>
 #include <signoton/tensors/lanes.h>
@@ -12,6 +13,7 @@
 #include <deal.II/matrix_free/matrix_free.h>
 
 #include <functional>
+#include <optional>
 
 namespace Signoton
 {
@@ -39,6 +41,7 @@ namespace Signoton
     using Cell   = FEEvaluation<dim, degree, degree + 1, dim, double>;
     using Data   = MatrixFree<dim, double>;
     using Range  = std::pair<unsigned int, unsigned int>;
+    using Sensor = FrontSensor<dim>;
 
     MechanicsKernel(const Space<dim>                      &space,
                     const std::vector<Rheology::Material> &materials);
@@ -80,7 +83,9 @@ namespace Signoton
                   const bool        with_energies,
                   const double      quiet) override;
     void
-    remember_dilatation(const VectorType &displacement) override;
+    begin_step(const VectorType &displacement) override;
+    void
+    add_shock_force(VectorType &force) override;
     double
     stable_time_step() override;
     void
@@ -101,6 +106,8 @@ namespace Signoton
                  VectorType            &field) override;
     unsigned int
     history_width() const override;
+    unsigned int
+    state_width() const override;
     void
     save_history(const PointSpace<dim> &points, VectorType &field) override;
     void
@@ -114,6 +121,12 @@ namespace Signoton
       Embedding::tensor_entries.size();
     static constexpr unsigned int n_points =
       Utilities::pow(degree + 1, dim); ///< of a cell
+    /** The size of a cube whose largest frequency is 2 c by that size, as that
+     *  of a cube of linear elements, whose mode is of constant strain. Quadratic
+     *  elements with a diagonal mass have sqrt(24) c/h in one dimension, and up
+     *  to 15 % more in three. */
+    static constexpr double part_of_size =
+      degree == 1 ? 1. : 1. / (1.15 * 2.449489742783178);
 
     /** Index in the MatrixFree data of the two sets of constraints. */
     enum DofIndex : unsigned int
@@ -218,49 +231,46 @@ namespace Signoton
     state_of_lane(const PointResponse &point, const unsigned int lane);
 
     // mechanics_dynamics.templates.h
-    /** The pressure of shock viscosity in a material over a step, by the
-     *  distance h theta by which a cell closes. */
-    struct Shock
+    /** The viscous stress of a batch in the step. */
+    ShockStress<Number>
+    shock_of(const unsigned int batch) const;
+    /** What materials are to shock viscosity. */
+    void
+    find_shock_materials();
+    /** What a point tells of its cell, summed up over the cell. */
+    struct Motion
     {
-      Number rate, linear, quadratic;
-      double speed; ///< of waves in the closed material, in m/s
-
-      Number
-      pressure(const Number &distance) const
-      {
-        const Number speed = rate * distance;
-        return speed * (linear + quadratic * speed);
-      }
-
-      /** The integral of the pressure over the distance. */
-      Number
-      potential(const Number &distance) const
-      {
-        const Number speed = rate * distance;
-        return distance * speed *
-               (0.5 * linear + (1. / 3.) * quadratic * speed);
-      }
-
-      /** The derivative of the pressure, zero if nothing closes. */
-      Number
-      stiffness(const Number &distance) const
-      {
-        const Number zero(0.);
-        return select_if_less(zero,
-                              distance,
-                              Number(rate * (linear +
-                                             2. * quadratic * rate * distance)),
-                              zero);
-      }
+      Tensor2<Number> change,
+        stress; ///< of strain in the step; of all stresses
+      Number voids = 0., elastic = 0., viscous = 0., volume = 0.;
     };
-    Shock
-    shock_of(const unsigned int material) const;
+    /** Add the viscous stress at a point to that of the law, and note what is
+     *  to be told of the cell.
+     *  @param change of the strain in the step
+     *  @return the dissipation in J/m^3 */
+    template <typename Law>
+    Number
+    resist(const ShockStress<Number>  &shock,
+           const Tensor2<Number>      &change,
+           const Tensor2<Number>      &strain,
+           Rheology::Response<Number> &response,
+           Motion                     &motion) const;
+    /** Let the cells of a batch tell their neighbors about the step.
+     *  @return what is to be added to the dissipation in J */
+    Number
+    tell_neighbors(const unsigned int         batch,
+                   const ShockStress<Number> &shock,
+                   const Motion              &motion);
 
     /** Strains, stresses and energies of the initial state. */
     void
     find_rest();
     void
     integrate_rest();
+    /** Add the force of what stress(batch, point) returns. */
+    template <typename Stress>
+    void
+    integrate_stress(const Stress &stress, VectorType &force);
     void
     refuse_contradiction(const double      difference,
                          const double      given,
@@ -313,9 +323,12 @@ namespace Signoton
     // by batch the energy in J and the voids in m^3.
     AlignedVector<Number> rest_strain, rest_stress, rest_energy, rest_voids;
     VectorType            rest_force;
-    // Empty unless there is shock viscosity: the size of a cell in m, and the
-    // dilatation before the step at each point.
-    AlignedVector<Number> cell_size, dilatation;
+    // Empty unless there is shock viscosity.
+    AlignedVector<Number>      cell_size;   ///< by batch, in m
+    double                     extent = 0.; ///< of the body, in m
+    VectorType                 step_begin;  ///< the displacement there
+    FrontSensor<dim>           sensor;
+    std::vector<ShockMaterial> shock_materials;
 
     PointHistory             history;
     AlignedVector<Number>    tangents;

@@ -336,8 +336,10 @@ namespace Signoton
     const FloatingPointTraps traps;
     const bool               with_tangent =
       tangent_offset[run.second] > tangent_offset[run.first];
-    const bool                 shocked = !dilatation.empty();
-    const Shock                shock   = shock_of(material_of_batch[run.first]);
+    const bool          shocked = bool(shock_viscosity);
+    std::optional<Cell> begin; // of the step, for shock viscosity
+    if (shocked)
+      begin.emplace(data, mesh_constraints);
     Rheology::Response<Number> response;
     auto   accepted = Rheology::make_history<Number>(law), next = accepted;
     double sum = 0.;
@@ -346,6 +348,14 @@ namespace Signoton
         cell.reinit(batch);
         cell.read_dof_values_plain(displacement);
         cell.evaluate(cell_flags<Embedding>);
+        ShockStress<Number> shock;
+        if (shocked)
+          {
+            shock = shock_of(batch);
+            begin->reinit(batch);
+            begin->read_dof_values(step_begin);
+            begin->evaluate(cell_flags<Embedding>);
+          }
         Number potential = 0.;
         for (unsigned int q = 0; q < cell.n_q_points; ++q)
           {
@@ -357,21 +367,13 @@ namespace Signoton
             write_history<Law>(next, history.trial(batch, q));
             if (shocked)
               {
-                const Number closed =
-                  cell_size[batch] * std::max(dilatation[batch * n_points + q] -
-                                                trace(strain(cell, q)),
-                                              Number(0.));
-                response.stress =
-                  add_spherical(response.stress,
-                                Number(-shock.pressure(closed)));
+                const Tensor2<Number> change =
+                  strain(cell, q) - strain(*begin, q);
+                response.stress += shock.stress(change);
                 if constexpr (request & Rheology::potential)
-                  response.potential +=
-                    shock.potential(closed) / cell_size[batch];
+                  response.potential += shock.potential(change);
                 if constexpr (request & Rheology::tangent)
-                  response.tangent +=
-                    isotropic_tensor<Number>(Number(shock.stiffness(closed) *
-                                                    cell_size[batch]),
-                                             Number(0.));
+                  response.tangent += shock.tangent(change);
               }
             if constexpr (request & Rheology::tangent)
               if (with_tangent)
@@ -488,7 +490,11 @@ namespace Signoton
             (rest_strain.size() + rest_stress.size() + rest_energy.size() +
              rest_voids.size()) *
               sizeof(Number),
-            (cell_size.size() + dilatation.size()) * sizeof(Number),
+            cell_size.size() * sizeof(Number) +
+              (sensor.empty() ?
+                 0 :
+                 sensor.memory_consumption() +
+                   sizeof(double) * step_begin.locally_owned_size()),
             data.memory_consumption()};
   }
 } // namespace Signoton

@@ -296,6 +296,14 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
+  unsigned int
+  MechanicsKernel<Embedding, degree>::state_width() const
+  {
+    return history_width() +
+           (shock_viscosity ? static_cast<unsigned int>(Sensor::n_numbers) : 0);
+  }
+
+  template <typename Embedding, int degree>
   void
   MechanicsKernel<Embedding, degree>::point_dofs(
     const PointSpace<dim>                &points,
@@ -318,6 +326,7 @@ namespace Signoton
     VectorType            &field)
   {
     std::vector<types::global_dof_index> dofs(points.fe.n_dofs_per_cell());
+    const unsigned int first = history_width(); // of shock viscosity
     for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
       for (unsigned int i = 0; i < data.n_active_entries_per_cell_batch(batch);
            ++i)
@@ -327,6 +336,14 @@ namespace Signoton
             for (unsigned int c = 0; c < history.width(batch); ++c)
               field[dofs[points.cell_index(c, q)]] =
                 history.accepted(batch, q)[c][i];
+          if (!sensor.empty())
+            {
+              const double *told =
+                sensor[sensor.index(data.get_cell_iterator(batch, i))];
+              for (unsigned int q = 0; q < space.quadrature.size(); ++q)
+                for (unsigned int c = 0; c < Sensor::n_numbers; ++c)
+                  field[dofs[points.cell_index(first + c, q)]] = told[c];
+            }
         }
   }
 
@@ -337,6 +354,7 @@ namespace Signoton
     const VectorType      &field)
   {
     std::vector<types::global_dof_index> dofs(points.fe.n_dofs_per_cell());
+    const unsigned int first = history_width(); // of shock viscosity
     for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
       {
         const unsigned int n_tensor_values = std::visit(
@@ -356,6 +374,19 @@ namespace Signoton
                   history.accepted(batch, q)[c][i] =
                     c < n_tensor_values ? value : std::max(value, 0.);
                 }
+            if (!sensor.empty())
+              {
+                double *told =
+                  sensor[sensor.index(data.get_cell_iterator(batch, i))];
+                for (unsigned int c = 0; c < Sensor::n_numbers; ++c)
+                  {
+                    // of a cell that was coarsened, all children count
+                    told[c] = 0.;
+                    for (unsigned int q = 0; q < n_points; ++q)
+                      told[c] +=
+                        field[dofs[points.cell_index(first + c, q)]] / n_points;
+                  }
+              }
           }
       }
   }

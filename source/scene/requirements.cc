@@ -1,3 +1,4 @@
+#include <signoton/discretization/front_sensor.h>
 #include <signoton/scene/requirements.h>
 #include <signoton/tensors/embedding.h>
 
@@ -55,6 +56,10 @@ namespace Signoton
     const bool initial = model.initial_strain || model.initial_stress;
     const bool shock =
       model.is_dynamic && bool(model.time_integration.shock_viscosity);
+    // of a cell and its share of the displacement at the begin of the step
+    const unsigned int shock_bytes =
+      sizeof(double) * (FrontSensor<dim>::n_numbers + 3 + 3 * dim) /
+      model.space->quadrature.size();
     const bool tangent = (!inelastic.empty() || shock) && !is_explicit;
     const bool symmetric =
       std::all_of(materials.begin(), materials.end(), [](const auto &m) {
@@ -122,7 +127,7 @@ namespace Signoton
              shock,
              shock ? "Time integration / ... shock viscosity" :
                      "Analysis = statics, or zero",
-             shock ? number : 0},
+             shock ? shock_bytes : 0},
             {"absorbing boundary",
              !absorbing.empty(),
              absorbing.empty() ? "no Boundaries / Absorbing" :

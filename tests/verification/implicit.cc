@@ -393,11 +393,14 @@ main(int argc, char **argv)
              "displacement x at probe 1",
              "displacement x at probe 3"},
             0.01);
+  // Where fronts make grains yield, both are of first order in the step: at 0.01
+  // the implicit plastic dissipation is 3.7 % below its limit, the explicit one,
+  // in steps of 0.015, 1.8 %.
   agreement(report,
             "loosened, yielding grains",
             read("tests/scenes/loosened_pulse.prm"),
-            {},
-            "0.01",
+            {"Time integration/Safety=0.45"},
+            "0.005",
             {"kinetic energy",
              "stored energy",
              "plastic dissipation",
@@ -405,6 +408,6 @@ main(int argc, char **argv)
              "external work",
              "displacement y at probe 1",
              "displacement x at probe 2"},
-            0.02);
+            0.01);
   return report.status();
 }

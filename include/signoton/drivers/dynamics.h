@@ -229,6 +229,12 @@ namespace Signoton
     void
     balance_transfer(VectorType missing, const double before);
 
+    /** The force of shock viscosity goes by rates, which a new mesh does not
+     *  know: without it each change of the mesh would take half a step of its
+     *  work. */
+    void
+    resist_motion();
+
     /** Take an energy in J from the motion of some unknowns relative to their
      *  center of gravity, whose momentum stays; false if there is too little. */
     bool

@@ -76,27 +76,15 @@ namespace Signoton
     std::pair<double, double>
     move();
 
-    /** The stable step with the shock viscosity of shocks so far. */
-    void
-    damp();
-
-    /** Take shorter steps if a shock is stronger than all before.
-     *  @param closing see DynamicSums, on this rank */
-    void
-    follow_shock(const double closing);
-
     /** Add a step to the receipt. */
     void
     account(const DynamicSums &own, const std::pair<double, double> &before);
 
     double       largest_displacement = 0.; ///< so far, in m
     double       quiet_share          = 0.; ///< of the cells, in the last step
-    double       fastest_closing = 0.; ///< of a cell so far, of the wave speed
-    double       undamped_step   = 0.; ///< stable without shock viscosity, in s
-    double       usual_stable_step = 0.; ///< but for strong shocks, in s
-    double       stable_step       = 0.;
-    double       next_to_meet      = 0.; ///< in s
-    unsigned int steps_left        = 0;  ///< up to there
+    double       stable_step          = 0.; ///< with shock viscosity, in s
+    double       next_to_meet         = 0.; ///< in s
+    unsigned int steps_left           = 0;  ///< up to there
   };
 } // namespace Signoton
 

@@ -82,7 +82,7 @@ namespace Signoton
     double         error_tolerance  = 1e-3;
     double         spectral_radius  = 0.8;
     double         safety           = 0.9;
-    ShockViscosity shock_viscosity  = {0.5, 1.2};
+    ShockViscosity shock_viscosity  = {0.5, 12.};
     bool           quiet_zones      = true;
     std::string    times            = ""; ///< that steps meet
     unsigned int   statistics_every = 1;

@@ -27,6 +27,14 @@ namespace Signoton
     {
       return linear > 0. || quadratic > 0.;
     }
+
+    /** The most that a cell is damped, as a part of critical damping: steps
+     *  are stable with it, whatever shocks come. */
+    double
+    bound() const
+    {
+      return quadratic > 0. ? std::max(linear, 0.5) : linear;
+    }
   };
 
   /** Sums over the own cells of a rank. */
@@ -37,7 +45,6 @@ namespace Signoton
     double dissipated  = 0.; ///< by hinges and dampers in the step, in J
     double viscous     = 0.; ///< of that, by dampers
     double shock       = 0.; ///< by the shock viscosity in the step, in J
-    double closing     = 0.; ///< of the fastest cell, of the closed wave speed
     double quiet_cells = 0.; ///< that were skipped
   };
 
@@ -147,7 +154,7 @@ namespace Signoton
     /**
      * Internal force $\int\sigma_{n+1}:\varepsilon(v)$ at a displacement that
      * fulfills all constraints, and with it the trial history. Shock viscosity
-     * is in it, with rates since the dilatation that is remembered.
+     * is in it, with rates since the begin of the step.
      * @param with_tangent also keep the consistent tangent at the points
      * @return the incremental potential of the body in J
      */
@@ -193,10 +200,9 @@ namespace Signoton
     /**
      * Internal force and trial history of explicit time integration. Hanging
      * and periodic nodes are followed, and their forces condensed; conditions
-     * at the boundary are not looked at. Under compression there is the
-     * pressure $q=\rho h|\dot\theta|(c_l c_p+c_q h|\dot\theta|)$ (von Neumann
-     * and Richtmyer 1950, Landshoff 1955) with the rate since the sweep before,
-     * the size h of the cell by the degree, and the speed of the closed medium.
+     * at the boundary are not looked at. Fronts are spread by a viscous stress
+     * (after von Neumann and Richtmyer 1950, by the speed of the front; see
+     * shock_coefficients()).
      * @param with_energies if not, only what is dissipated is summed up, and
      *   the step is accepted at once, without commit()
      * @param quiet cells are skipped, as being at rest, if no unknown of theirs
@@ -208,9 +214,14 @@ namespace Signoton
                   const bool        with_energies,
                   const double      quiet) = 0;
 
-    /** Take rates of dilatation since @p displacement in the next sweep. */
+    /** Shock viscosity takes rates since @p displacement in the next sweep. */
     virtual void
-    remember_dilatation(const VectorType &displacement) = 0;
+    begin_step(const VectorType &displacement) = 0;
+
+    /** Add the force of shock viscosity in the step before, as cells tell it:
+     *  on a new mesh there is no step that it could be taken from. */
+    virtual void
+    add_shock_force(VectorType &force) = 0;
 
     /** A bound of the stable step of central differences in s, without safety:
      *  about the time in which the fastest wave of the closed medium crosses
@@ -252,6 +263,11 @@ namespace Signoton
     /** Numbers of history that the largest law keeps at a point. */
     virtual unsigned int
     history_width() const = 0;
+
+    /** Numbers that a point takes along to another mesh or to a checkpoint: the
+     *  history, and what shock viscosity knows of its cell. */
+    virtual unsigned int
+    state_width() const = 0;
 
     /** Accepted history as a field of points, and back. Interpolation may
      *  push accumulated scalars below zero: they are cut off there. To bring
