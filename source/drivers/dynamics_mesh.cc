@@ -219,6 +219,19 @@ namespace Signoton
   Dynamics<dim>::resist_motion()
   {
     const auto &mechanics = model.mechanics;
+    if (std::any_of(model.materials.begin(),
+                    model.materials.end(),
+                    [](const auto &m) { return m.is_viscous(); }))
+      {
+        // A step that is short, but not too short for differences of strain.
+        const double moment = 1e-3 * time_step;
+        VectorType   ahead(displacement);
+        ahead.add(moment, velocity);
+        supports.place(ahead, time + moment);
+        mechanics->set_time_step(moment);
+        mechanics->dynamic_force(ahead, internal, true, -1.);
+        mechanics->discard();
+      }
     mechanics->set_time_step(time_step);
     mechanics->set_shock_viscosity(model.time_integration.shock_viscosity);
     mechanics->begin_step(displacement);

@@ -90,6 +90,8 @@ namespace Signoton
     stable_time_step() override;
     void
     commit() override;
+    void
+    discard() override;
     EnergyBalance
     energy_balance(const VectorType &displacement) override;
     std::vector<CellAverages>

@@ -481,6 +481,13 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::discard()
+  {
+    history.discard();
+  }
+
+  template <typename Embedding, int degree>
   auto
   MechanicsKernel<Embedding, degree>::memory() const ->
     typename Mechanics<dim>::Memory

@@ -229,9 +229,9 @@ namespace Signoton
     void
     balance_transfer(VectorType missing, const double before);
 
-    /** The force of shock viscosity goes by rates, which a new mesh does not
-     *  know: without it each change of the mesh would take half a step of its
-     *  work. */
+    /** The force of dampers and of shock viscosity goes by rates, which a new
+     *  mesh does not know: without it each change of the mesh would take half a
+     *  step of their work. */
     void
     resist_motion();
 

@@ -233,6 +233,10 @@ namespace Signoton
     virtual void
     commit() = 0;
 
+    /** Forget the trial history. */
+    virtual void
+    discard() = 0;
+
     virtual EnergyBalance
     energy_balance(const VectorType &displacement) = 0;
 

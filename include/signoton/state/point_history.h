@@ -74,6 +74,13 @@ namespace Signoton
       has_trial = false;
     }
 
+    /** Forget the trial state. */
+    void
+    discard()
+    {
+      has_trial = false;
+    }
+
     std::size_t
     memory_consumption() const
     {
