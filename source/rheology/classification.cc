@@ -246,6 +246,47 @@ namespace Signoton::Rheology
   }
 
   Moduli
+  rest_moduli(const Scheme &scheme)
+  {
+    return composed(scheme, [](const Scheme &element) -> Moduli {
+      switch (element.kind)
+        {
+          case Kind::spring:
+            return element.moduli;
+          case Kind::damper:
+            return {0., 0.};
+          default:
+            return {infinite, infinite};
+        }
+    });
+  }
+
+  namespace
+  {
+    /** The largest viscosity in Pa s, and the smallest modulus in Pa that is not
+     *  zero. */
+    void
+    collect_extremes(const Scheme &scheme, double &viscosity, double &modulus)
+    {
+      for (const double value : {scheme.moduli.bulk, scheme.moduli.shear})
+        if (scheme.kind == Kind::damper)
+          viscosity = std::max(viscosity, value);
+        else if (scheme.kind == Kind::spring && value > 0.)
+          modulus = std::min(modulus, value);
+      for (const Scheme &part : scheme.parts)
+        collect_extremes(part, viscosity, modulus);
+    }
+  } // namespace
+
+  double
+  relaxation_time(const Scheme &scheme)
+  {
+    double viscosity = 0., modulus = infinite;
+    collect_extremes(scheme, viscosity, modulus);
+    return std::isfinite(modulus) ? viscosity / modulus : 0.;
+  }
+
+  Moduli
   stiffest_moduli(const Scheme &scheme, const double time_step)
   {
     const double factor = 2. / time_step;

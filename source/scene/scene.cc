@@ -1,5 +1,6 @@
 #include <signoton/base/quoting.h>
 #include <signoton/base/scene_template.h>
+#include <signoton/rheology/classification.h>
 #include <signoton/scene/scene.h>
 
 #include <algorithm>
@@ -361,15 +362,18 @@ namespace Signoton
     model.initial_strain   = function("Strain", initial_strain_text, n_entries);
     model.initial_stress   = function("Stress", initial_stress_text, n_entries);
     model.initial_velocity = function("Velocity", initial_velocity_text, dim);
+    if (!model.initial_strain && !model.initial_stress)
+      return;
     for (const auto &material : model.materials)
-      if (material.is_viscous() &&
-          (model.initial_strain || model.initial_stress))
+      if (const Moduli left = Rheology::rest_moduli(material.scheme());
+          material.is_viscous() && !(left.bulk > 0. && left.shear > 0.))
         throw UserError(file.where(path),
-                        "an initial strain or stress, and dampers in the "
-                        "material '" +
+                        "an initial strain or stress, and a damper in series "
+                        "in the material '" +
                           material.name + "'",
-                        "an initial state without dampers: it does not tell "
-                        "how they were stretched",
+                        "dampers with a spring in parallel: stress that a "
+                        "damper bears fades away, and an initial state is one "
+                        "of rest",
                         "let the load grow from zero instead");
   }
 

@@ -203,6 +203,73 @@ namespace
       }
   }
 
+  /** Prestressed bodies with dampers that loads balance stay at rest: their
+   *  springs bear the stress, the dampers nothing. */
+  void
+  relaxed(Report &report)
+  {
+    const std::string spring = "spring(bulk = 1, shear = 0.6)",
+                      damper = "damper(bulk viscosity = 0.05, shear viscosity "
+                               "= 0.05)",
+                      kelvin = "parallel(" + spring + ", " + damper + ")";
+    const std::vector<std::pair<std::string, std::string>> schemes = {
+      {"Kelvin-Voigt", kelvin},
+      {"standard solid",
+       "parallel(" + spring + ", series(spring(bulk = 0.4, shear = 0.5), " +
+         damper + "))"},
+      {"damped grains", "series(contact(no tension), " + kelvin + ")"}};
+    for (const auto &[name, scheme] : schemes)
+      for (const int dim : {2, 3})
+        for (const std::string way : {"explicit", "implicit", "statics"})
+          {
+            SceneFile file;
+            file.set({}, "Dimension", std::to_string(dim));
+            file.set({}, "Analysis", way == "statics" ? way : "dynamics");
+            file.set({"Geometry"}, "Generator", "subdivided_hyper_rectangle");
+            file.set({"Geometry"},
+                     "Arguments",
+                     dim == 2 ? "4, 2 : 0, 0 : 2, 1 : true" :
+                                "4, 2, 1 : 0, 0, 0 : 2, 1, 0.5 : true");
+            file.set({"Materials", "body"}, "Rheology", scheme);
+            file.set({"Materials", "body"}, "Density", "1");
+            for (const char *plane : {"left", "bottom", "front"})
+              if (dim == 3 || plane != std::string("front"))
+                file.set({"Boundaries", plane}, "Symmetry", "true");
+            file.set({"Boundaries", "right"}, "Pressure", "0.1");
+            file.set({"Boundaries", "top"}, "Pressure", "0.05");
+            if (dim == 3)
+              file.set({"Boundaries", "back"}, "Pressure", "0.03");
+            file.set({"Initial state"},
+                     "Stress",
+                     dim == 2 ? "-0.1; -0.05; -0.03; 0" :
+                                "-0.1; -0.03; -0.05; 0; 0; 0");
+            file.set({"Output"},
+                     "Probe points",
+                     dim == 2 ? "2, 1" : "2, 1, 0.5");
+            file.set({"Output"}, "Probe quantities", "displacement, stress");
+            if (way != "statics")
+              {
+                file.set({"Time integration"}, "Scheme", way);
+                file.set({"Time integration"}, "End time", "2");
+              }
+            const auto        last = run(file).back();
+            const std::string full =
+              name + ", " + std::to_string(dim) + "D, " + way;
+            for (const char *entry : {"displacement x", "displacement y"})
+              report.require(full + ", " + entry,
+                             value(last, std::string(entry) + " at probe 1"),
+                             1e-10);
+            report.require(full + ", stress",
+                           value(last, "stress xx at probe 1") / -0.1 - 1.,
+                           1e-9);
+            if (way != "statics")
+              report.require(full + ", viscous dissipation",
+                             value(last, "viscous dissipation") /
+                               value(last, "initial energy"),
+                             1e-16);
+          }
+  }
+
   /** A bar whose end is moved, as a displacement or a velocity:
    *  $u=A\sin(2x)\sin(2t)$. Order 2, and explicit steps do the same. */
   void
@@ -377,6 +444,7 @@ main(int argc, char **argv)
   order(report);
   explicit_order(report);
   damped(report);
+  relaxed(report);
   slow_load(report);
   driven(report);
   local_error(report);

@@ -60,6 +60,16 @@ namespace Signoton::Rheology
   Moduli
   loosened_moduli(const Scheme &scheme);
 
+  /** Moduli in Pa of a scheme at rest, where dampers bear nothing and nothing
+   *  slips or opens: zero if a damper in series lets all stress fade away. */
+  Moduli
+  rest_moduli(const Scheme &scheme);
+
+  /** A time in s of the order of the longest that it takes dampers to relax;
+   *  zero without dampers or without springs. */
+  double
+  relaxation_time(const Scheme &scheme);
+
   /** The stiffest that a scheme is in a time step, in Pa: nothing slips or
    *  opens, and dampers are springs of twice their viscosity by the step, which
    *  is what bounds the step of explicit time integration. */
