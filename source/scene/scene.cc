@@ -37,6 +37,30 @@ namespace Signoton
       return "";
     }
 
+    /** Where linear elements are too stiff, or nothing. Under a smooth footing
+     *  on 24 x 16 cells they are by 9 % at Poisson's ratio .48, 56 % at .499,
+     *  and find no limit load of Tresca's clay. */
+    template <int dim>
+    std::string
+    check_locking(const Model<dim> &model)
+    {
+      constexpr double         incompressible = 20.;
+      std::vector<std::string> names;
+      for (const auto &material : model.materials)
+        {
+          const Moduli moduli = material.elasticity();
+          const bool   yields =
+            !model.is_dynamic &&
+            Rheology::contains(material.scheme(), Rheology::Scheme::Kind::hinge);
+          if (yields || moduli.bulk > incompressible * moduli.shear)
+            names.push_back("'" + material.name + "', which " +
+                            (yields ? "yields" : "is nearly incompressible"));
+        }
+      return names.empty() ? "" :
+                             "degree 1 is too stiff in " + join(names, ", ") +
+                               ": 'Discretization / Degree = 2' is not";
+    }
+
   } // namespace
 
   template <int dim>
@@ -286,6 +310,9 @@ namespace Signoton
     if (const std::string weightless = check_weight(model, gravity_text);
         !weightless.empty())
       warnings.push_back(weightless);
+    if (degree == 1)
+      if (const std::string locking = check_locking(model); !locking.empty())
+        warnings.push_back(locking);
     interpret_initial_state();
     if (model.is_dynamic)
       interpret_dynamics();

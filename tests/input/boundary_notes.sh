@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What the screen says of the boundary: sizes of its parts, contradictions,
-# loads that go straight into supports, facets, the axis; and nothing where
-# there is nothing to say.
+# loads that go straight into supports, facets, the axis; where elements lock;
+# and nothing where there is nothing to say.
 # usage: boundary_notes.sh SIGNOTON
 set -eu
 signoton=$1
@@ -71,4 +71,31 @@ notes 1 1 'Pressure' '2100 of 2100 N per metre' -- \
   --set 'Boundaries/right/Displacement x=0' --set 'Boundaries/right/Pressure=700*t'
 notes 1 1 'left' 'the axis of revolution needs no support' "bottom 50.27 m^2" 'right 75.4 m^2' -- \
   --set 'Embedding=axisymmetric'
+
+# locks WORDS -- --set ...: the warning that degree 1 is too stiff, or none if
+# there are no words
+locks() {
+  local words=$1
+  shift 2
+  mpirun -np 2 "$signoton" --validate block.prm "$@" >out 2>&1 ||
+    complain "failed with $*"
+  if [ -z "$words" ]; then
+    ! grep -q 'degree 1' out || complain "a warning of $*"
+  else
+    grep -qF "degree 1 is too stiff in 'rock', which $words" out ||
+      complain "no warning '$words' of $*"
+  fi
+}
+
+nu='Materials/rock/Poisson ratio'
+clay=(--set 'Materials/rock/Rheology=elastic plastic'
+  --set 'Materials/rock/Admissible set=tresca'
+  --set 'Materials/rock/Shear strength=1e4')
+locks '' -- --set "$nu=0.47"
+locks 'is nearly incompressible' -- --set "$nu=0.48"
+locks 'is nearly incompressible' -- --set "$nu=0.4999" --set 'Analysis=dynamics'
+locks '' -- --set "$nu=0.4999" --set 'Discretization/Degree=2'
+locks 'yields' -- "${clay[@]}"
+locks '' -- "${clay[@]}" --set 'Discretization/Degree=2'
+locks '' -- "${clay[@]}" --set 'Analysis=dynamics'
 [ "$problems" = 0 ]
