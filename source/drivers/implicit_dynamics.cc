@@ -51,13 +51,23 @@ namespace Signoton
   std::string
   ImplicitDynamics<dim>::introduction() const
   {
+    const double longest =
+      is_automatic ? model.time_integration.longest_step() : next_step;
+    // After a jump of a load on a bar, in steps that cross two to ten cells,
+    // velocities and stresses go up and down by 4 to 18 % at a radius of 0.9, by
+    // half of that at 0.8, the default, and by less than 3 % at 0.5.
+    constexpr double ripples = 0.85;
     return (is_automatic ? "Steps from " : "Steps of ") +
            short_number(next_step) + " s" +
            (is_automatic ?
-              " up to " + short_number(model.time_integration.longest_step()) +
-                " s by the local error" :
+              " up to " + short_number(longest) + " s by the local error" :
               std::string()) +
-           "; waves cross a cell in " + short_number(stable_step) + " s";
+           "; waves cross a cell in " + short_number(stable_step) + " s" +
+           (radius > ripples && longest > stable_step ?
+              "\n  warning: at a spectral radius of " + short_number(radius) +
+                " what such steps do not resolve goes up and down from step to "
+                "step; 0.5 damps it" :
+              std::string());
   }
 
   template <int dim>
