@@ -29,13 +29,8 @@ namespace Signoton
     supports.reinit(space, model.conditions);
     absorbing.reinit(space, model.materials, model.conditions, supports);
     loads.reinit();
-    const bool remembers = model.mechanics->state_width() > 0;
-    if (remembers && history_space)
+    if (history_space)
       history_space->distribute_dofs();
-    else if (remembers)
-      history_space =
-        std::make_unique<PointSpace<dim>>(space,
-                                          model.mechanics->state_width());
 
     for (VectorType *vector : {&displacement,
                                &velocity,
@@ -357,6 +352,16 @@ namespace Signoton
   }
 
   template <int dim>
+  PointSpace<dim> *
+  Dynamics<dim>::need_history_space()
+  {
+    const unsigned int width = model.mechanics->state_width();
+    if (!history_space && width > 0)
+      history_space = std::make_unique<PointSpace<dim>>(*model.space, width);
+    return history_space.get();
+  }
+
+  template <int dim>
   void
   Dynamics<dim>::save()
   {
@@ -368,7 +373,7 @@ namespace Signoton
     checkpoint.set("accepted steps", n_steps);
     checkpoint.set("lines of statistics", n_reported);
     output.save(checkpoint);
-    checkpoint.write(history_space.get(),
+    checkpoint.write(need_history_space(),
                      {&displacement, &velocity, &acceleration, &internal});
   }
 
@@ -393,7 +398,7 @@ namespace Signoton
     n_lines     = part_of(20);
     setup();
     checkpoint.load_fields(
-      history_space.get(),
+      need_history_space(),
       {&displacement, &velocity, &acceleration, &internal});
     // follow others, whatever they were given
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)

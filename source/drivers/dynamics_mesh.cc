@@ -160,7 +160,7 @@ namespace Signoton
     space.mesh.prepare_coarsening_and_refinement();
     motion.prepare_for_coarsening_and_refinement(
       std::vector<const VectorType *>{&u, &v});
-    if (history_space)
+    if (need_history_space() != nullptr)
       {
         history = history_space->make_relevant_vector();
         mechanics->save_history(*history_space, history);

@@ -251,6 +251,11 @@ namespace Signoton
     std::array<double, dim>
     momentum() const;
 
+    /** Where what points remember goes to another mesh or a checkpoint, made
+     *  when it is asked for; nullptr if they remember nothing. Collective. */
+    PointSpace<dim> *
+    need_history_space();
+
     void
     save();
 
