@@ -197,8 +197,8 @@ namespace Signoton
       if (auto *general = std::get_if<Rheology::General>(&laws[m]);
           general != nullptr && materials[m].is_viscous())
         {
-          relaxed[m] = true;
-          moduli[m]  = Rheology::rest_moduli(materials[m].scheme());
+          relaxed[m]        = true;
+          moduli[m]         = Rheology::rest_moduli(materials[m].scheme());
           const double time = Rheology::relaxation_time(materials[m].scheme());
           general->set_time_step(1e10 * (time > 0. ? time : 1.));
         }
@@ -231,7 +231,7 @@ namespace Signoton
             Rheology::Response<Number> response;
             std::visit(
               [&](const auto &law) {
-                using Law = std::decay_t<decltype(law)>;
+                using Law         = std::decay_t<decltype(law)>;
                 const auto virgin = Rheology::make_history<Number>(law);
                 auto       next   = virgin;
                 law.template update<Rheology::energies>(strain,

@@ -49,9 +49,9 @@ namespace Signoton
       for (const auto &material : model.materials)
         {
           const Moduli moduli = material.elasticity();
-          const bool   yields =
-            !model.is_dynamic &&
-            Rheology::contains(material.scheme(), Rheology::Scheme::Kind::hinge);
+          const bool   yields = !model.is_dynamic &&
+                              Rheology::contains(material.scheme(),
+                                                 Rheology::Scheme::Kind::hinge);
           if (yields || moduli.bulk > incompressible * moduli.shear)
             names.push_back("'" + material.name + "', which " +
                             (yields ? "yields" : "is nearly incompressible"));

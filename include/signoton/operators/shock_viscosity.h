@@ -138,10 +138,10 @@ namespace Signoton
    * is of the order of $\dot d/e$, and $q=c_q\rho\dot d^2/e$ spreads it
    * over $\pi\sqrt{c_q}$ cells in the shape of a half wave, whatever its
    * strength, and brings the contacts to rest as they close. It is bounded by
-   * what the closed medium would have, $c_l\rho c_p\dot d$, and by the stress
-   * of those neighbors that are closed: what flies freely is not slowed down
-   * before it lands. Of a medium with binders, what closes no faster than their
-   * waves is no front.
+   * what the closed medium would have, $c_l\rho c_p\dot d$, and by half the
+   * stress of those neighbors that are closed: what flies freely is not slowed
+   * down before it lands. Of a medium with binders, what closes no faster than
+   * their waves is no front.
    *
    * Where contacts are closed, waves are linear: they need no viscosity but for
    * their noise. Behind a front that has just closed a cell, and where the
