@@ -232,13 +232,15 @@ namespace Signoton
     static PointState
     state_of_lane(const PointResponse &point, const unsigned int lane);
 
-    // mechanics_dynamics.templates.h
+    // mechanics_shock.templates.h
     /** The viscous stress of a batch in the step. */
     ShockStress<Number>
     shock_of(const unsigned int batch) const;
-    /** What materials are to shock viscosity. */
+    /** What materials, and how large cells, are to shock viscosity. */
     void
     find_shock_materials();
+    void
+    find_sizes();
     /** What a point tells of its cell, summed up over the cell. */
     struct Motion
     {
@@ -264,6 +266,7 @@ namespace Signoton
                    const ShockStress<Number> &shock,
                    const Motion              &motion);
 
+    // mechanics_rest.templates.h
     /** Strains, stresses and energies of the initial state. */
     void
     find_rest();
@@ -277,8 +280,8 @@ namespace Signoton
     refuse_contradiction(const double      difference,
                          const double      given,
                          const Point<dim> &where);
-    void
-    find_sizes();
+
+    // mechanics_dynamics.templates.h
     /** Whether no unknown that the cell has read exceeds the displacement of
      *  quiet cells. */
     bool
