@@ -88,13 +88,12 @@ namespace Signoton
       const Number zero(0.), distance = closing(change),
                              closed = std::max(distance, zero),
                              opened = std::min(distance, zero);
-      // up to where the quadratic part reaches its cap
-      const Number part = compare_and_apply_mask<SIMDComparison::less_than>(
-        quadratic * rate * closed,
-        cap,
-        closed,
-        compare_and_apply_mask<SIMDComparison::greater_than>(
-          quadratic, zero, cap / (quadratic * rate), zero));
+      // Up to where the quadratic part reaches its cap. Where there is none,
+      // none has been reached: a division by zero would be trapped.
+      const Number part =
+        std::min(closed,
+                 Number(cap /
+                        std::max(Number(quadratic * rate), Number(1e-100))));
       const Tensor2<Number> deviation = deviatoric_part(change);
       return rate *
                (0.5 * linear * closed * closed +
