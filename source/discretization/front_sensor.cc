@@ -31,45 +31,72 @@ namespace Signoton
         cells[index(cell)] = cell;
     first.assign(1, 0);
     neighbors.clear();
+    across.clear();
     nearness.clear();
-    const auto add = [&](const auto &neighbor) {
+    axes.clear();
+    const auto add = [&](const auto &neighbor, const unsigned int face) {
       neighbors.push_back(place[neighbor->active_cell_index()]);
+      across.push_back(face / 2);
     };
     for (const auto &cell : cells)
-      for (const auto f : cell->face_indices())
-        {
-          // of sizes one, two and a half, between centers
-          nearness.push_back(1.);
-          if (cell->has_periodic_neighbor(f))
-            {
-              if (cell->periodic_neighbor(f)->is_active())
-                {
-                  add(cell->periodic_neighbor(f));
-                  if (cell->periodic_neighbor_is_coarser(f))
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const Tensor<1, dim> extent =
+              cell->face(2 * d + 1)->center() - cell->face(2 * d)->center();
+            axes.push_back(extent / extent.norm());
+          }
+        for (const auto f : cell->face_indices())
+          {
+            // of sizes one, two and a half, between centers
+            nearness.push_back(1.);
+            if (cell->has_periodic_neighbor(f))
+              {
+                if (cell->periodic_neighbor_is_coarser(f))
+                  {
+                    add(cell->periodic_neighbor(f),
+                        cell->periodic_neighbor_of_coarser_periodic_neighbor(f)
+                          .first);
                     nearness.back() = 1. / 1.5;
-                }
-              else
-                for (unsigned int s = 0;
-                     s < GeometryInfo<dim>::max_children_per_face;
-                     ++s)
-                  add(cell->periodic_neighbor_child_on_subface(f, s));
-            }
-          else if (!cell->at_boundary(f))
-            {
-              if (cell->face(f)->has_children())
-                for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
-                  add(cell->neighbor_child_on_subface(f, s));
-              else
-                {
-                  add(cell->neighbor(f));
-                  if (cell->neighbor_is_coarser(f))
+                  }
+                else
+                  {
+                    const unsigned int face =
+                      cell->periodic_neighbor_face_no(f);
+                    if (cell->periodic_neighbor(f)->is_active())
+                      add(cell->periodic_neighbor(f), face);
+                    else
+                      for (unsigned int s = 0;
+                           s < GeometryInfo<dim>::max_children_per_face;
+                           ++s)
+                        add(cell->periodic_neighbor_child_on_subface(f, s),
+                            face);
+                  }
+              }
+            else if (!cell->at_boundary(f))
+              {
+                if (cell->neighbor_is_coarser(f))
+                  {
+                    add(cell->neighbor(f),
+                        cell->neighbor_of_coarser_neighbor(f).first);
                     nearness.back() = 1. / 1.5;
-                }
-            }
-          if (neighbors.size() > first.back() + 1)
-            nearness.back() = 1. / 0.75;
-          first.push_back(neighbors.size());
-        }
+                  }
+                else
+                  {
+                    const unsigned int face = cell->neighbor_face_no(f);
+                    if (cell->face(f)->has_children())
+                      for (unsigned int s = 0; s < cell->face(f)->n_children();
+                           ++s)
+                        add(cell->neighbor_child_on_subface(f, s), face);
+                    else
+                      add(cell->neighbor(f), face);
+                  }
+              }
+            if (neighbors.size() > first.back() + 1)
+              nearness.back() = 1. / 0.75;
+            first.push_back(neighbors.size());
+          }
+      }
     pressed.assign(n_own, std::numeric_limits<double>::infinity());
   }
 
@@ -124,19 +151,47 @@ namespace Signoton
 
   template <int dim>
   double
+  FrontSensor<dim>::stretching(const unsigned int cell,
+                               const unsigned int d) const
+  {
+    const Tensor<1, dim> &a    = axis(cell, d);
+    const double         *rate = (*this)[cell];
+    double                sum  = 0.;
+    unsigned int          k    = 3;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        sum += a[i] * a[i] * rate[i];
+        for (unsigned int j = i + 1; j < dim; ++j)
+          sum += std::sqrt(2.) * a[i] * a[j] * rate[k++];
+      }
+    return std::abs(sum);
+  }
+
+  template <int dim>
+  double
   FrontSensor<dim>::find_support(const unsigned int cell) const
   {
     // neighbors with a tenth of the voids count as closed in part
     const double part   = 0.1 * (*this)[cell][voids];
     double       result = std::numeric_limits<double>::infinity();
-    for (unsigned int n = first[2 * dim * cell];
-         n < first[2 * dim * (cell + 1)];
-         ++n)
-      {
-        const double *other = (*this)[neighbors[n]];
-        if (other[voids] < part)
-          result = std::min(result, other[stress] / (1. - other[voids] / part));
-      }
+    if (!(part > 0.))
+      return result;
+    std::array<double, dim> share{};
+    double                  sum = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum += share[d] = stretching(cell, d);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (share[d] > 0.)
+        for (unsigned int n = first[2 * (dim * cell + d)];
+             n < first[2 * (dim * cell + d + 1)];
+             ++n)
+          {
+            const double *other = (*this)[neighbors[n]];
+            if (other[voids] < part)
+              result = std::min(result,
+                                other[traction + across[n]] /
+                                  (1. - other[voids] / part) * sum / share[d]);
+          }
     return result;
   }
 
@@ -168,7 +223,8 @@ namespace Signoton
               data.get_partitioner()->n_ghost_indices() + pressed.size()) +
            sizeof(unsigned int) *
              (place.size() + first.size() + neighbors.size()) +
-           sizeof(float) * nearness.size();
+           across.size() + sizeof(float) * nearness.size() +
+           sizeof(Tensor<1, dim>) * axes.size();
   }
 
   template class FrontSensor<2>;

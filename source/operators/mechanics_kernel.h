@@ -244,9 +244,9 @@ namespace Signoton
     /** What a point tells of its cell, summed up over the cell. */
     struct Motion
     {
-      Tensor2<Number> change,
-        stress; ///< of strain in the step; of all stresses
-      Number voids = 0., elastic = 0., viscous = 0., volume = 0.;
+      Tensor2<Number> change, ///< of strain in the step
+        of_law, stress;       ///< without and with the viscous stress
+      Number voids = 0., viscous = 0., volume = 0.;
     };
     /** Add the viscous stress at a point to that of the law, and note what is
      *  to be told of the cell.

@@ -132,22 +132,31 @@ namespace Signoton
     for (unsigned int i = 0; i < data.n_active_entries_per_cell_batch(batch);
          ++i)
       {
-        const Tensor2<>  change = lane(motion.change, i);
+        const unsigned int cell =
+          sensor.index(data.get_cell_iterator(batch, i));
+        const Tensor2<> change = lane(motion.change, i),
+                        stress = lane(motion.stress, i),
+                        of_law = lane(motion.of_law, i);
         ShockReport<dim> report;
         for (unsigned int e = 0; e < n_tensor_entries; ++e)
           report.rate[e] =
             (e < 3 ? 1. : std::sqrt(2.)) / (n_points * time_step) *
             change.access_raw_entry(Embedding::tensor_entries[e]);
-        report.stress    = lane(motion.stress, i).norm() / n_points;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            Tensor<1, 3> normal;
+            for (unsigned int j = 0; j < dim; ++j)
+              normal[j] = sensor.axis(cell, d)[j];
+            report.traction[d] = (stress * normal).norm() / n_points;
+            report.of_law[d]   = (of_law * normal).norm() / n_points;
+          }
         report.voids     = motion.voids[i] / n_points;
-        report.elastic   = motion.elastic[i] / n_points;
         report.viscous   = motion.viscous[i] / n_points;
         report.viscosity = shock.shear[i];
         result[i] =
           motion.volume[i] *
           Signoton::tell_neighbors(sensor,
-                                   sensor.index(
-                                     data.get_cell_iterator(batch, i)),
+                                   cell,
                                    shock_materials[material_of_batch[batch]],
                                    report,
                                    shock.freedom[i],
@@ -183,8 +192,8 @@ namespace Signoton
                                                                           open,
                                                                           open,
                                                                           zero);
-        motion.elastic += std::abs(of_spring);
       }
+    motion.of_law += response.stress;
     const Tensor2<Number> viscous = shock.stress(change);
     response.stress += viscous;
     motion.viscous += (1. / 3.) * trace(viscous);

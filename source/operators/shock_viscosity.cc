@@ -70,9 +70,9 @@ namespace Signoton
         result.quadratic   = material.density * viscosity.quadratic * open /
                            (voids + closing / speed + closed);
         const double q = closing * std::min(result.quadratic * closing, most);
-        // Half of it: a neighbor that is pressed by this viscosity alone would
-        // keep it up, and the grains in the air.
-        const double support = 0.5 * sensor.support(cell);
+        // About half of it: a neighbor that is pressed by this viscosity alone
+        // would keep it up, and the grains in the air.
+        const double support = 0.55 * sensor.support(cell);
         result.freedom       = front * (q > support ? support / q : 1.);
         result.quadratic *= result.freedom;
         result.cap = most * result.freedom;
@@ -127,19 +127,31 @@ namespace Signoton
     // closed by a front, whose stress comes and goes if it is weak.
     if (material.stiffening * dilatation(rate) > 0.)
       {
-        const double narrow =
-          told[Sensor::stress] / (material.density * speed * speed) +
-          closed_at_once(sensor, material, size);
+        const double largest = *std::max_element(told + Sensor::traction,
+                                                 told + Sensor::traction + dim);
+        const double narrow  = largest / (material.density * speed * speed) +
+                              closed_at_once(sensor, material, size);
         const double part = std::min(1., told[Sensor::voids] / narrow);
         told[Sensor::fresh] =
           std::max(told[Sensor::fresh], freedom * part * part);
       }
-    told[Sensor::stress] =
-      std::max(report.stress, told[Sensor::stress] / (1. + 0.02 * crossings));
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double &traction = told[Sensor::traction + d];
+        traction =
+          std::max(report.traction[d], traction / (1. + 0.02 * crossings));
+      }
     std::copy(report.rate.begin(), report.rate.end(), told);
-    told[Sensor::voids]     = report.voids;
-    told[Sensor::elastic]   = report.elastic;
-    told[Sensor::viscous]   = report.viscous;
+    told[Sensor::voids] = report.voids;
+    double pressed = 0., sum = tiny;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double share = sensor.stretching(cell, d) + tiny;
+        pressed += share * report.of_law[d];
+        sum += share;
+      }
+    told[Sensor::elastic] = pressed / (sum * material.density * speed * speed);
+    told[Sensor::viscous] = report.viscous;
     told[Sensor::viscosity] = report.viscosity;
     return correction;
   }

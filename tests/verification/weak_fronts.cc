@@ -66,12 +66,15 @@ namespace
   }
 
   /** Through a gap in the lowest cell: $t=\sqrt{2g_0/g}$, then up again, less
-   *  than 2 % slower; with dampers it stays down. */
+   *  than 2 % slower; with dampers it stays down.
+   *  @param lateral pressure of the walls, by that of its weight at the base: it
+   *    does not hold the column */
   void
   falling_column(Report            &report,
                  const int          dim,
                  const unsigned int n,
-                 const bool         damped = false)
+                 const bool         damped  = false,
+                 const double       lateral = 0.)
   {
     const double h = 1. / n, landing = std::sqrt(2. * h);
     SceneFile    file = strip(dim, n, 1., 4e4, true);
@@ -80,6 +83,14 @@ namespace
              "Strain",
              (dim == 2 ? "0; (y < " : "0; 0; (z < ") + text(h) +
                (dim == 2 ? "); 0; 0" : "); 0; 0; 0"));
+    if (lateral > 0.)
+      {
+        const std::string pressure = text(-lateral);
+        file.set({"Initial state"},
+                 "Stress",
+                 pressure + (dim == 2 ? "; 0; " + pressure + "; 0" :
+                                        "; " + pressure + "; 0; 0; 0; 0"));
+      }
     file.set({"Time integration"}, "End time", text(1.5 * landing));
     if (damped)
       {
@@ -101,6 +112,8 @@ namespace
     std::ostringstream name;
     name << (damped ? "damped " : "") << "column of " << n << " cells, " << dim
          << "D";
+    if (lateral > 0.)
+      name << ", lateral pressure " << lateral;
     report.require(name.str() + ", landing", time / landing - 1., 5e-3);
     // half a cell of its mass hangs at the base
     const double speed =
@@ -443,6 +456,9 @@ main(int argc, char **argv)
     falling_column(report, 3, 10);
     falling_column(report, 2, 10, true);
     falling_column(report, 3, 10, true);
+    for (const double lateral : {0.01, 1., 1000.})
+      falling_column(report, 2, 20, false, lateral);
+    falling_column(report, 3, 10, false, 1.);
     thrown_column(report, "viscous");
     thrown_column(report, "yielding");
     settling_ground(report);

@@ -29,9 +29,13 @@ namespace Signoton
     /** Where the other numbers of a cell stand. */
     enum Number : unsigned int
     {
-      stress = n_rates, ///< size of the largest stress lately, in Pa
-      voids,            ///< dilatation of the contacts, if they are open
-      elastic,          ///< size of the dilatation of the spring
+      /** Size of the largest traction lately, in Pa, on planes across each
+       *  axis of the cell. */
+      traction = n_rates,
+      voids = traction + dim, ///< dilatation of the contacts, if they are open
+      /** Traction of the law in the directions of closing, as the strain of
+       *  plane waves. */
+      elastic,
       fresh,     ///< 1 where a front has just closed the contacts, fading
       sharp,     ///< see sharpness(), fading
       viscous,   ///< mean of the normal stresses of shock viscosity, in Pa
@@ -90,8 +94,20 @@ namespace Signoton
       return (*this)[cell][sharp];
     }
 
+    /** The direction from one face of an own cell to the opposite one. */
+    const Tensor<1, dim> &
+    axis(const unsigned int cell, const unsigned int d) const
+    {
+      return axes[dim * cell + d];
+    }
+
+    /** Size of the rate of strain along an axis of an own cell, in 1/s. */
+    double
+    stretching(const unsigned int cell, const unsigned int d) const;
+
     /** How strongly in Pa a cell with voids may be pushed from outside: by the
-     *  stress of its neighbors without voids. Infinite if there are none. */
+     *  traction of its neighbors without voids, in the directions in which it
+     *  closes. Infinite if there are none. */
     double
     support(const unsigned int cell) const
     {
@@ -123,8 +139,11 @@ namespace Signoton
     std::vector<unsigned int> place; ///< of cells, by active cell index
     /** Neighbors at face f of cell i begin at entry 2*dim*i+f of `first`. */
     std::vector<unsigned int> first, neighbors;
+    /** Which axis of the neighbor is across the face. */
+    std::vector<unsigned char> across;
     /** Of each face: size of the cell by the distance to the neighbor. */
-    std::vector<float> nearness;
+    std::vector<float>          nearness;
+    std::vector<Tensor<1, dim>> axes; ///< unit vectors
   };
 } // namespace Signoton
 

@@ -137,7 +137,7 @@ namespace Signoton
    * is of the order of $\dot d/e$, and $q=c_q\rho\dot d^2/e$ spreads it
    * over $\pi\sqrt{c_q}$ cells in the shape of a half wave, whatever its
    * strength, and brings the contacts to rest as they close. It is bounded by
-   * what the closed medium would have, $c_l\rho c_p\dot d$, and by half the
+   * what the closed medium would have, $c_l\rho c_p\dot d$, and by about half the
    * stress of those neighbors that are closed: what flies freely is not slowed
    * down before it lands. Of a medium with binders, what closes no faster than
    * their waves is no front.
@@ -163,9 +163,10 @@ namespace Signoton
   struct ShockReport
   {
     std::array<double, FrontSensor<dim>::n_rates> rate; ///< see FrontSensor
-    double stress;             ///< its size in Pa, with the viscous one
+    /** Across the axes of the cell in Pa, with the viscous one: its size. */
+    std::array<double, dim> traction;
+    std::array<double, dim> of_law; ///< the same without the viscous one
     double voids;              ///< dilatation of the contacts, if they are open
-    double elastic;            ///< size of the dilatation of the spring
     double viscous, viscosity; ///< see FrontSensor
   };
 
