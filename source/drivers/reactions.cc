@@ -78,8 +78,34 @@ namespace Signoton
     return columns;
   }
 
+  template <int dim>
+  std::vector<std::pair<std::string, double>>
+  binder_shares(const Model<dim> &model,
+                const VectorType &support_forces,
+                const VectorType &binder_force)
+  {
+    const auto all        = reactions(model, support_forces),
+               of_binders = reactions(model, binder_force);
+    double largest        = 0.;
+    for (const auto &reaction : all)
+      largest = std::max(largest, reaction.force.norm());
+    std::vector<std::pair<std::string, double>> result;
+    for (unsigned int i = 0; i < all.size(); ++i)
+      {
+        const double whole = all[i].force.norm(),
+                     part  = of_binders[i].force.norm();
+        if (whole > 0.01 * largest && part > 0.03 * whole)
+          result.emplace_back(model.conditions[i].name, part / whole);
+      }
+    return result;
+  }
+
   template std::vector<std::pair<std::string, double>>
   reaction_columns<2>(const Model<2> &, const VectorType &);
   template std::vector<std::pair<std::string, double>>
   reaction_columns<3>(const Model<3> &, const VectorType &);
+  template std::vector<std::pair<std::string, double>>
+  binder_shares<2>(const Model<2> &, const VectorType &, const VectorType &);
+  template std::vector<std::pair<std::string, double>>
+  binder_shares<3>(const Model<3> &, const VectorType &, const VectorType &);
 } // namespace Signoton

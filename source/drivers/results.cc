@@ -86,6 +86,19 @@ namespace Signoton
   }
 
   template <int dim>
+  void
+  Results<dim>::binders(
+    const std::vector<std::pair<std::string, double>> &shares)
+  {
+    for (const auto &[section, share] : shares)
+      output.screen << "  binders bear " << short_number(100. * share, 3)
+                    << " % of the reaction of '" << section << "'\n";
+    if (!shares.empty())
+      output.screen << "  if 'Binder ratio' is there to help the solver, a "
+                       "smaller one tells how much it adds\n";
+  }
+
+  template <int dim>
   typename RunOutput<dim>::Line
   Results<dim>::statistics_line(const VectorType &displacement,
                                 const StepRecord &record)

@@ -323,6 +323,21 @@ namespace Signoton
   }
 
   template <int dim>
+  void
+  Statics<dim>::report_binders()
+  {
+    const auto is_bound = [](const auto &material) {
+      return material.has_binder();
+    };
+    if (results.n_accepted() == 0 ||
+        std::none_of(model.materials.begin(), model.materials.end(), is_bound))
+      return;
+    VectorType force;
+    model.mechanics->binder_force(displacement, force);
+    results.binders(binder_shares(model, support_force, force));
+  }
+
+  template <int dim>
   ExitStatus
   Statics<dim>::run(const std::string &resume_directory)
   {
@@ -364,6 +379,7 @@ namespace Signoton
         if (!advance())
           {
             results.finish();
+            report_binders();
             results.no_equilibrium(time, 0.5 * record.step_size, last_result);
             return ExitStatus::no_equilibrium;
           }
@@ -390,6 +406,7 @@ namespace Signoton
           return results.interrupt(time);
       }
     results.finish();
+    report_binders();
     return ExitStatus::completed;
   }
 

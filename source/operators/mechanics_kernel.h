@@ -72,6 +72,8 @@ namespace Signoton
     void
     reactions(const VectorType &displacement, VectorType &force) override;
     void
+    binder_force(const VectorType &displacement, VectorType &force) override;
+    void
     apply_tangent(const VectorType &increment,
                   VectorType       &force) const override;
     void

@@ -140,6 +140,31 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
+  void
+  MechanicsKernel<Embedding, degree>::binder_force(
+    const VectorType &displacement,
+    VectorType       &force)
+  {
+    std::vector<Moduli> binders;
+    for (const auto &material : materials)
+      binders.push_back(material.binder());
+    AlignedVector<Tensor2<Number>> stress(data.n_cell_batches() * n_points);
+    visit_points(displacement, [&](const PointResponse &point) {
+      const unsigned int m      = material_of_batch[point.batch];
+      Tensor2<Number>    strain = point.response.contact_strain;
+      if (materials[m].has_potential()) // else the hinge stands before both
+        strain += point.response.plastic_strain;
+      stress[point.batch * n_points + point.q] = binders[m].stress(strain);
+    });
+    data.initialize_dof_vector(force, mesh_constraints);
+    integrate_stress(
+      [&](const unsigned int batch, const unsigned int q) {
+        return stress[batch * n_points + q];
+      },
+      force);
+  }
+
+  template <typename Embedding, int degree>
   std::vector<CellAverages>
   MechanicsKernel<Embedding, degree>::cell_averages(
     const VectorType &displacement)

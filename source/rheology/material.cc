@@ -37,6 +37,12 @@ namespace Signoton::Rheology
     return binder_kind != "none";
   }
 
+  Moduli
+  Material::binder() const
+  {
+    return may_be_bound() && has_binder() ? binder({}) : Moduli{0., 0.};
+  }
+
   bool
   Material::has_potential() const
   {

@@ -24,6 +24,17 @@ namespace Signoton
   template <int dim>
   std::vector<std::pair<std::string, double>>
   reaction_columns(const Model<dim> &model, const VectorType &support_forces);
+
+  /** What binders bear of the reactions, by boundary sections: those of which it
+   *  is more than 3 %, and that take at least a hundredth of the largest
+   *  reaction.
+   *
+   *  @param binder_force see Mechanics::binder_force() */
+  template <int dim>
+  std::vector<std::pair<std::string, double>>
+  binder_shares(const Model<dim> &model,
+                const VectorType &support_forces,
+                const VectorType &binder_force);
 } // namespace Signoton
 
 #endif

@@ -60,6 +60,10 @@ namespace Signoton
                    const double        step_size,
                    const NewtonResult &newton);
 
+    /** Say what binders bear of the reactions, see binder_shares(). */
+    void
+    binders(const std::vector<std::pair<std::string, double>> &shares);
+
     /** Write the ledger and the summary. */
     void
     finish();

@@ -65,6 +65,10 @@ namespace Signoton
     void
     report_start();
 
+    /** Say what binders bear of the reactions. */
+    void
+    report_binders();
+
     /** The loads before the trial state, in N, on the present mesh. */
     VectorType
     carried_load();

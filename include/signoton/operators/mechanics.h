@@ -183,6 +183,12 @@ namespace Signoton
     virtual void
     reactions(const VectorType &displacement, VectorType &force) = 0;
 
+    /** The part of reactions() that the binders in parallel with contacts bear:
+     *  the force of $B:x$ with the strain x of what they bridge, in the accepted
+     *  state. */
+    virtual void
+    binder_force(const VectorType &displacement, VectorType &force) = 0;
+
     /** Product of the kept tangent with an increment that may be anything where
      *  the displacement is prescribed. */
     virtual void

@@ -104,6 +104,11 @@ namespace Signoton::Rheology
     bool
     has_binder() const;
 
+    /** Of the binder in parallel with the contact; zero if there is none. Where
+     *  the hinge is in series with the contact it bridges both. */
+    Moduli
+    binder() const;
+
     std::string  name;
     unsigned int id      = 0;
     double       density = 0.;
