@@ -102,22 +102,31 @@ namespace Signoton
 
   namespace
   {
-    /** Whether the residual of a linear problem is at its round-off; if so, the
-     *  result says it. A body that flows away has large displacements and with
-     *  them round-off, but no answer; one that only follows its supports has no
-     *  forces but round-off, and there are no digits to ask for. */
+    /** Whether the residual is at its round-off; if so, the result says it. A
+     *  body that flows away has large displacements and with them round-off, but
+     *  no answer; one that only follows its supports has no forces but round-off,
+     *  and there are no digits to ask for. Of a nonlinear one neither the residual
+     *  nor the displacements may change any more.
+     *
+     *  @param dx the last increment, taken or not
+     *  @param previous_norm of the residual before it */
     bool
     accept_round_off(ConvexProblem                   &problem,
                      const ConvexProblem::VectorType &x,
+                     const ConvexProblem::VectorType &dx,
                      const double                     norm,
+                     const double                     previous_norm,
                      NewtonResult                    &result)
     {
-      constexpr double least_digits = 1e-6;
-      result.at_round_off           = problem.is_linear() &&
-                            norm <= problem.round_off(x) &&
-                            (result.history.back().residual <= least_digits ||
-                             problem.follows_supports(x));
-      result.converged = result.at_round_off;
+      const bool   is_linear = problem.is_linear();
+      const double residual  = result.history.back().residual;
+      if (!is_linear && !(norm >= 0.3 * previous_norm &&
+                          dx.linfty_norm() <= 1e-6 * x.linfty_norm()))
+        return false;
+      if (residual > (is_linear ? 1e-6 : 1e-4) && !problem.follows_supports(x))
+        return false;
+      result.at_round_off = norm <= problem.round_off(x);
+      result.converged    = result.at_round_off;
       return result.converged;
     }
   } // namespace
@@ -147,7 +156,8 @@ namespace Signoton
             result.converged = true;
             return result;
           }
-        if (iteration > 0 && accept_round_off(problem, x, norm, result))
+        if (iteration > 0 &&
+            accept_round_off(problem, x, dx, norm, previous_norm, result))
           return result;
         if (iteration == parameters.maximum_iterations)
           {
@@ -203,11 +213,11 @@ namespace Signoton
               }
             // where there is no decrease any more there may be none to find
             if (next.linear_solves == 2 &&
-                accept_round_off(problem, x, norm, result))
+                accept_round_off(problem, x, dx, norm, norm, result))
               return result;
             if (rho > 2.)
               {
-                if (!accept_round_off(problem, x, norm, result))
+                if (!accept_round_off(problem, x, dx, norm, norm, result))
                   result.reason = linear.reason;
                 return result;
               }

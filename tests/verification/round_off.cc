@@ -2,7 +2,7 @@
 // grains that bear nothing at all: each has an answer, and linear bodies have it
 // after one iteration; a body that flies off has none. Cantilevers of 100 and 1000 to 1 against the theory of
 // Timoshenko, columns of two layers whose moduli differ up to 1e8 times against
-// their weight, lifted grains, blocks that follow their supports.
+// their weight, stiff plates on grains, lifted grains, blocks that follow their supports.
 
 #include "verification.h"
 
@@ -90,6 +90,48 @@ namespace
     require_one_iteration(report, name.str(), line);
   }
 
+  /** Grains with a binder that carry a stiff plate, pressed or pulled: of width,
+   *  heights and modulus 1, pulled the modulus is that of the binder. */
+  void
+  plate_on_grains(Report      &report,
+                  const int    dim,
+                  const double contrast,
+                  const double traction)
+  {
+    SceneFile file =
+      box(dim == 2 ? "4, 8 : 0, 0 : 1, 2" : "2, 2, 4 : 0, 0, 0 : 1, 1, 2", "1");
+    const std::string up = dim == 2 ? "y" : "z";
+    file.set({}, "Dimension", std::to_string(dim));
+    file.set({"Geometry"}, "Material ids", "1: " + up + " > 1");
+    file.set({"Materials", "m"}, "Rheology", "elastic granular");
+    file.set({"Materials", "m"}, "Admissible set", "no tension");
+    file.set({"Materials", "m"}, "Binder", "proportional");
+    file.set({"Materials", "m"}, "Binder ratio", "0.02");
+    file.set({"Materials", "stiff"}, "Rheology", "elastic");
+    file.set({"Materials", "stiff"}, "Material id", "1");
+    file.set({"Materials", "stiff"}, "Young modulus", text(contrast));
+    file.set({"Materials", "stiff"}, "Poisson ratio", "0");
+    std::vector<std::string> sides = {"left", "right", "bottom"};
+    if (dim == 3)
+      sides.insert(sides.end(), {"front", "back"});
+    for (const std::string &side : sides)
+      file.set({"Boundaries", side}, "Symmetry", "true");
+    file.set({"Boundaries", "top"},
+             "Traction",
+             (dim == 2 ? "0; " : "0; 0; ") + text(traction));
+    file.set({"Output"}, "Probe points", dim == 2 ? "0.5, 2" : "0.5, 0.5, 2");
+    const auto         line    = run(file).back();
+    const double       modulus = traction > 0. ? 0.02 : 1.;
+    std::ostringstream name;
+    name << "plate of " << contrast << " on grains, " << dim << "D, "
+         << (traction > 0. ? "pulled" : "pressed");
+    report.require(name.str(),
+                   value(line, "displacement " + up + " at probe 1") /
+                       (traction * (1. / modulus + 1. / contrast)) -
+                     1.,
+                   std::max(1e-7, 1e-14 * contrast / modulus));
+  }
+
   /** Grains without cohesion that are lifted at once, or pressed before. */
   void
   lifted_grains(Report &report, const int dim, const std::string &motion)
@@ -124,35 +166,47 @@ namespace
   void
   carried(Report &report)
   {
-    for (const int dim : {2, 3})
-      for (const std::string motion : {"1/3", "1e-3"})
-        {
-          SceneFile file =
-            box(dim == 2 ? "4, 4 : 0, 0 : 1, 1" : "4, 4, 4 : 0, 0, 0 : 1, 1, 1",
-                "1e6");
-          file.set({}, "Dimension", std::to_string(dim));
-          file.set({"Materials", "m"}, "Poisson ratio", "0.3");
-          file.set({"Discretization"}, "Degree", "1");
-          const std::string sides[] = {"left",
-                                       dim == 2 ? "bottom" : "front",
-                                       "bottom"},
-                            axes[]  = {"x", "y", "z"};
-          for (int d = 0; d < dim; ++d)
-            file.set({"Boundaries", sides[d]},
-                     "Displacement " + axes[d],
-                     motion);
-          file.set({"Output"},
-                   "Probe points",
-                   dim == 2 ? "0.7, 0.8" : "0.7, 0.8, 0.9");
-          const auto line = run(file).back();
-          for (int d = 0; d < dim; ++d)
-            report.require("carried by " + motion + " along " + axes[d],
-                           value(line,
-                                 "displacement " + axes[d] + " at probe 1") /
-                               (motion == "1/3" ? 1. / 3. : 1e-3) -
-                             1.,
-                           1e-9);
-        }
+    for (const std::string kind : {"elastic", "grains", "bound grains"})
+      for (const int dim : {2, 3})
+        for (const std::string motion : {"1/3", "1e-3"})
+          {
+            SceneFile file = box(dim == 2 ? "4, 4 : 0, 0 : 1, 1" :
+                                            "4, 4, 4 : 0, 0, 0 : 1, 1, 1",
+                                 "1e6");
+            file.set({}, "Dimension", std::to_string(dim));
+            file.set({"Materials", "m"}, "Poisson ratio", "0.3");
+            if (kind != "elastic")
+              {
+                file.set({"Materials", "m"}, "Rheology", "elastic granular");
+                file.set({"Materials", "m"},
+                         "Admissible set",
+                         "mises schleicher");
+                file.set({"Materials", "m"}, "Friction parameter", "0.6");
+              }
+            if (kind == "bound grains")
+              file.set({"Materials", "m"}, "Binder", "proportional");
+            file.set({"Discretization"}, "Degree", "1");
+            const std::string sides[] = {"left",
+                                         dim == 2 ? "bottom" : "front",
+                                         "bottom"},
+                              axes[]  = {"x", "y", "z"};
+            for (int d = 0; d < dim; ++d)
+              file.set({"Boundaries", sides[d]},
+                       "Displacement " + axes[d],
+                       motion);
+            file.set({"Output"},
+                     "Probe points",
+                     dim == 2 ? "0.7, 0.8" : "0.7, 0.8, 0.9");
+            const auto line = run(file).back();
+            for (int d = 0; d < dim; ++d)
+              report.require(kind + " carried by " + motion + " along " +
+                               axes[d],
+                             value(line,
+                                   "displacement " + axes[d] + " at probe 1") /
+                                 (motion == "1/3" ? 1. / 3. : 1e-3) -
+                               1.,
+                             1e-9);
+          }
 
     std::ofstream("two.geo")
       << "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1};\n"
@@ -194,6 +248,10 @@ main(int argc, char **argv)
   for (const double contrast : {1e4, 1e6, 1e8})
     for (const bool stiff_on_top : {true, false})
       two_layers(report, contrast, stiff_on_top);
+  for (const int dim : {2, 3})
+    for (const double contrast : {1e5, 1e6, 1e8})
+      for (const double traction : {-1e-3, 1e-3})
+        plate_on_grains(report, dim, contrast, traction);
   for (const int dim : {2, 3})
     {
       lifted_grains(report, dim, "1e-3*t");

@@ -117,7 +117,7 @@ namespace Signoton
    * balance. A linear problem is solved to that at once, or to the round-off of
    * the forces of elements that the residual is a difference of: in a slender
    * body, or beside a material a million times as stiff, these are far larger
-   * than the loads.
+   * than the loads. So is a nonlinear one, once iterations change nothing more.
    */
   class Newton
   {
