@@ -40,9 +40,13 @@ namespace Signoton
             squares[i] += m * shape * shape;
           }
       }
-    // beside an axis of rotation quadratic shape functions have next to none
-    if (space.degree > 1)
-      mass.equ(dim * total / squares.l1_norm(), squares);
+    // On an axis of rotation quadratic shape functions have none: they get a
+    // share by the squares.
+    const double share = dim * total / squares.l1_norm();
+    for (unsigned int i = 0; i < mass.size(); ++i)
+      if (mass[i] < 0.25 * share * squares[i])
+        mass[i] = share * squares[i];
+    mass *= dim * total / mass.l1_norm();
     return mass;
   }
 
