@@ -175,6 +175,16 @@ namespace Signoton
 
   template <int dim>
   bool
+  StaticProblem<dim>::flows(const VectorType &u)
+  {
+    double weakest = 1.;
+    for (const auto &material : model.materials)
+      weakest = std::min(weakest, material.binder_ratio());
+    return model.mechanics->strain_by_stress(u) * weakest > 1e3;
+  }
+
+  template <int dim>
+  bool
   StaticProblem<dim>::is_linear() const
   {
     return !(model.is_dynamic && model.time_integration.shock_viscosity) &&

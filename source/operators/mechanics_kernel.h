@@ -69,6 +69,8 @@ namespace Signoton
                    const bool        with_tangent) override;
     typename Mechanics<dim>::ElementForces
     element_forces(const VectorType &displacement) override;
+    double
+    strain_by_stress(const VectorType &displacement) override;
     void
     reactions(const VectorType &displacement, VectorType &force) override;
     void

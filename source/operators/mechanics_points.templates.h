@@ -110,6 +110,34 @@ namespace Signoton
   }
 
   template <typename Embedding, int degree>
+  double
+  MechanicsKernel<Embedding, degree>::strain_by_stress(
+    const VectorType &displacement)
+  {
+    std::array<double, 2> sums{};
+    visit_points(displacement, [&](const PointResponse &point) {
+      const Moduli &spring    = elasticity[material_of_batch[point.batch]];
+      const Number  by_strain = point.weight *
+                               (spring.stress(point.strain) * point.strain),
+                   by_stress = point.weight *
+                               spring.energy_product(point.response.stress,
+                                                     point.response.stress);
+      for (unsigned int i = 0;
+           i < data.n_active_entries_per_cell_batch(point.batch);
+           ++i)
+        {
+          sums[0] += by_strain[i];
+          sums[1] += by_stress[i];
+        }
+    });
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        space.communicator,
+                        ArrayView<double>(sums.data(), sums.size()));
+    return std::sqrt(sums[0] /
+                     std::max(sums[1], std::numeric_limits<double>::min()));
+  }
+
+  template <typename Embedding, int degree>
   EnergyBalance
   MechanicsKernel<Embedding, degree>::energy_balance(
     const VectorType &displacement)

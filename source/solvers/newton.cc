@@ -106,7 +106,8 @@ namespace Signoton
      *  body that flows away has large displacements and with them round-off, but
      *  no answer; one that only follows its supports has no forces but round-off,
      *  and there are no digits to ask for. Of a nonlinear one neither the residual
-     *  nor the displacements may change any more.
+     *  nor the displacements may change any more, and what flows by far more than
+     *  elastic strains has none, either.
      *
      *  @param dx the last increment, taken or not
      *  @param previous_norm of the residual before it */
@@ -123,7 +124,9 @@ namespace Signoton
       if (!is_linear && !(norm >= 0.3 * previous_norm &&
                           dx.linfty_norm() <= 1e-6 * x.linfty_norm()))
         return false;
-      if (residual > (is_linear ? 1e-6 : 1e-4) && !problem.follows_supports(x))
+      if (!problem.follows_supports(x) &&
+          (residual > (is_linear ? 1e-6 : 1e-4) ||
+           (!is_linear && problem.flows(x))))
         return false;
       result.at_round_off = norm <= problem.round_off(x);
       result.converged    = result.at_round_off;

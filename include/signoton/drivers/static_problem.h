@@ -50,6 +50,9 @@ namespace Signoton
     bool
     follows_supports(const VectorType &u) const override;
 
+    bool
+    flows(const VectorType &u) override;
+
     LinearResult
     solve(const VectorType &rhs,
           VectorType       &du,

@@ -177,6 +177,13 @@ namespace Signoton
     virtual ElementForces
     element_forces(const VectorType &displacement) = 0;
 
+    /** How far the strain exceeds that of the stress if all contacts were closed
+     *  and all hinges held: $\sqrt{\int\varepsilon:E:\varepsilon\,/
+     *  \int\sigma:E^{-1}:\sigma}$, one for elastic bodies, the inverse of the
+     *  ratio of a binder that bears alone. */
+    virtual double
+    strain_by_stress(const VectorType &displacement) = 0;
+
     /** The internal force with the entries of constrained unknowns, which are
      *  the reactions there. Writes the trial history, as internal_force()
      *  does. */

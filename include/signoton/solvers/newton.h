@@ -60,6 +60,15 @@ namespace Signoton
       return false;
     }
 
+    /** Whether @p x is so large that it is no answer, beside a gradient that is
+     *  not below the tolerance: plastic flow without end. */
+    virtual bool
+    flows(const VectorType &x)
+    {
+      (void)x;
+      return false;
+    }
+
     /** Solve (tangent + regularization * elastic tangent) @p dx = @p rhs. */
     virtual LinearResult
     solve(const VectorType &rhs,
