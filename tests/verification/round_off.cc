@@ -132,6 +132,46 @@ namespace
                    std::max(1e-7, 1e-14 * contrast / modulus));
   }
 
+  /** A block of von Mises between a rough base and a stiff plate as wide as it
+   *  is high bears twice its shear strength: slip goes from corner to corner. */
+  void
+  plate_on_plastic_block(Report &report, const double contrast)
+  {
+    SceneFile file = box("4, 8 : 0, 0 : 1, 2", "1");
+    file.set({"Geometry"}, "Material ids", "1: y > 1");
+    file.set({"Materials", "m"}, "Rheology", "elastic plastic");
+    file.set({"Materials", "m"}, "Admissible set", "von mises");
+    file.set({"Materials", "m"}, "Shear strength", "1e-3");
+    file.set({"Materials", "m"}, "Poisson ratio", "0.3");
+    file.set({"Materials", "stiff"}, "Rheology", "elastic");
+    file.set({"Materials", "stiff"}, "Material id", "1");
+    file.set({"Materials", "stiff"}, "Young modulus", text(contrast));
+    file.set({"Materials", "stiff"}, "Poisson ratio", "0.3");
+    for (const char *component : {"x", "y"})
+      file.set({"Boundaries", "bottom"},
+               std::string("Displacement ") + component,
+               "0");
+    file.set({"Load steps"}, "Step size", "0.25");
+    file.set({"Load steps"}, "Minimum step size", "0.05");
+    for (const bool too_much : {false, true})
+      {
+        file.set({"Boundaries", "top"},
+                 "Pressure",
+                 text((too_much ? 1.2 : 0.98) * 2e-3));
+        std::ofstream("block.prm") << file.text();
+        std::ostringstream name;
+        name << "plate of " << contrast << " on a plastic block, "
+             << (too_much ? "too much" : "what it bears");
+        report.require(name.str(),
+                       attempt("block.prm", {}) ==
+                           (too_much ? ExitStatus::no_equilibrium :
+                                       ExitStatus::completed) ?
+                         0. :
+                         1.,
+                       0.);
+      }
+  }
+
   /** Grains without cohesion that are lifted at once, or pressed before. */
   void
   lifted_grains(Report &report, const int dim, const std::string &motion)
@@ -252,6 +292,8 @@ main(int argc, char **argv)
     for (const double contrast : {1e5, 1e6, 1e8})
       for (const double traction : {-1e-3, 1e-3})
         plate_on_grains(report, dim, contrast, traction);
+  for (const double contrast : {1e3, 1e6, 1e8})
+    plate_on_plastic_block(report, contrast);
   for (const int dim : {2, 3})
     {
       lifted_grains(report, dim, "1e-3*t");
