@@ -181,7 +181,7 @@ namespace Signoton
     for (unsigned int d = 0; d < dim; ++d)
       sum += share[d] = stretching(cell, d);
     for (unsigned int d = 0; d < dim; ++d)
-      if (share[d] > 1e-12 * sum)
+      if (share[d] > 1e-3 * sum)
         for (unsigned int n = first[2 * (dim * cell + d)];
              n < first[2 * (dim * cell + d + 1)];
              ++n)
