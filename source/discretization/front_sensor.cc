@@ -176,6 +176,8 @@ namespace Signoton
     double       result = std::numeric_limits<double>::infinity();
     if (!(part > 0.))
       return result;
+    // Neighbors beside a cell that moves toward others hold nothing: a direction
+    // counts by its share of the motion, not at all if that may be noise.
     std::array<double, dim> share{};
     double                  sum = 0.;
     for (unsigned int d = 0; d < dim; ++d)

@@ -25,6 +25,21 @@ namespace
     return file;
   }
 
+  /** An elastic material with the id 1, where the condition holds. */
+  void
+  add_stiff_part(SceneFile         &file,
+                 const std::string &condition,
+                 const double       young_modulus,
+                 const std::string &poisson_ratio)
+  {
+    file.set({"Geometry"}, "Material ids", "1: " + condition);
+    const SceneFile::Path stiff = {"Materials", "stiff"};
+    file.set(stiff, "Rheology", "elastic");
+    file.set(stiff, "Material id", "1");
+    file.set(stiff, "Young modulus", text(young_modulus));
+    file.set(stiff, "Poisson ratio", poisson_ratio);
+  }
+
   void
   require_one_iteration(Report                      &report,
                         const std::string           &name,
@@ -64,13 +79,7 @@ namespace
   two_layers(Report &report, const double contrast, const bool stiff_on_top)
   {
     SceneFile file = box("4, 8 : 0, 0 : 1, 2", "1");
-    file.set({"Geometry"},
-             "Material ids",
-             stiff_on_top ? "1: y > 1" : "1: y < 1");
-    file.set({"Materials", "stiff"}, "Rheology", "elastic");
-    file.set({"Materials", "stiff"}, "Material id", "1");
-    file.set({"Materials", "stiff"}, "Young modulus", text(contrast));
-    file.set({"Materials", "stiff"}, "Poisson ratio", "0");
+    add_stiff_part(file, stiff_on_top ? "y > 1" : "y < 1", contrast, "0");
     file.set({"Materials", "stiff"}, "Density", "1e-3");
     file.set({"Materials", "m"}, "Density", "1e-3");
     file.set({"Loads"}, "Gravity", "0; -1");
@@ -102,15 +111,11 @@ namespace
       box(dim == 2 ? "4, 8 : 0, 0 : 1, 2" : "2, 2, 4 : 0, 0, 0 : 1, 1, 2", "1");
     const std::string up = dim == 2 ? "y" : "z";
     file.set({}, "Dimension", std::to_string(dim));
-    file.set({"Geometry"}, "Material ids", "1: " + up + " > 1");
     file.set({"Materials", "m"}, "Rheology", "elastic granular");
     file.set({"Materials", "m"}, "Admissible set", "no tension");
     file.set({"Materials", "m"}, "Binder", "proportional");
     file.set({"Materials", "m"}, "Binder ratio", "0.02");
-    file.set({"Materials", "stiff"}, "Rheology", "elastic");
-    file.set({"Materials", "stiff"}, "Material id", "1");
-    file.set({"Materials", "stiff"}, "Young modulus", text(contrast));
-    file.set({"Materials", "stiff"}, "Poisson ratio", "0");
+    add_stiff_part(file, up + " > 1", contrast, "0");
     std::vector<std::string> sides = {"left", "right", "bottom"};
     if (dim == 3)
       sides.insert(sides.end(), {"front", "back"});
@@ -138,15 +143,11 @@ namespace
   plate_on_plastic_block(Report &report, const double contrast)
   {
     SceneFile file = box("4, 8 : 0, 0 : 1, 2", "1");
-    file.set({"Geometry"}, "Material ids", "1: y > 1");
     file.set({"Materials", "m"}, "Rheology", "elastic plastic");
     file.set({"Materials", "m"}, "Admissible set", "von mises");
     file.set({"Materials", "m"}, "Shear strength", "1e-3");
     file.set({"Materials", "m"}, "Poisson ratio", "0.3");
-    file.set({"Materials", "stiff"}, "Rheology", "elastic");
-    file.set({"Materials", "stiff"}, "Material id", "1");
-    file.set({"Materials", "stiff"}, "Young modulus", text(contrast));
-    file.set({"Materials", "stiff"}, "Poisson ratio", "0.3");
+    add_stiff_part(file, "y > 1", contrast, "0.3");
     for (const char *component : {"x", "y"})
       file.set({"Boundaries", "bottom"},
                std::string("Displacement ") + component,
