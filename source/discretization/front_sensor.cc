@@ -4,6 +4,24 @@
 
 namespace Signoton
 {
+  namespace
+  {
+    /** The number of a face, also a periodic one, in the cell across it. */
+    template <typename Cell>
+    unsigned int
+    face_of_neighbor(const Cell        &cell,
+                     const unsigned int f,
+                     const bool         is_coarser)
+    {
+      if (cell->has_periodic_neighbor(f))
+        return is_coarser ?
+                 cell->periodic_neighbor_of_coarser_periodic_neighbor(f).first :
+                 cell->periodic_neighbor_face_no(f);
+      return is_coarser ? cell->neighbor_of_coarser_neighbor(f).first :
+                          cell->neighbor_face_no(f);
+    }
+  } // namespace
+
   template <int dim>
   void
   FrontSensor<dim>::reinit(
@@ -34,10 +52,6 @@ namespace Signoton
     across.clear();
     nearness.clear();
     axes.clear();
-    const auto add = [&](const auto &neighbor, const unsigned int face) {
-      neighbors.push_back(place[neighbor->active_cell_index()]);
-      across.push_back(face / 2);
-    };
     for (const auto &cell : cells)
       {
         for (unsigned int d = 0; d < dim; ++d)
@@ -50,47 +64,29 @@ namespace Signoton
           {
             // of sizes one, two and a half, between centers
             nearness.push_back(1.);
-            if (cell->has_periodic_neighbor(f))
+            const bool beyond = cell->has_periodic_neighbor(f);
+            if (beyond || !cell->at_boundary(f))
               {
-                if (cell->periodic_neighbor_is_coarser(f))
+                const auto neighbor = cell->neighbor_or_periodic_neighbor(f);
+                const bool is_coarser =
+                  beyond ? cell->periodic_neighbor_is_coarser(f) :
+                           cell->neighbor_is_coarser(f);
+                const unsigned int face = face_of_neighbor(cell, f, is_coarser);
+                const unsigned int n =
+                  neighbor->is_active() ?
+                    1 :
+                    GeometryInfo<dim>::max_children_per_face;
+                for (unsigned int s = 0; s < n; ++s)
                   {
-                    add(cell->periodic_neighbor(f),
-                        cell->periodic_neighbor_of_coarser_periodic_neighbor(f)
-                          .first);
-                    nearness.back() = 1. / 1.5;
+                    const auto other =
+                      n == 1 ? neighbor :
+                      beyond ? cell->periodic_neighbor_child_on_subface(f, s) :
+                               cell->neighbor_child_on_subface(f, s);
+                    neighbors.push_back(place[other->active_cell_index()]);
+                    across.push_back(face / 2);
                   }
-                else
-                  {
-                    const unsigned int face =
-                      cell->periodic_neighbor_face_no(f);
-                    if (cell->periodic_neighbor(f)->is_active())
-                      add(cell->periodic_neighbor(f), face);
-                    else
-                      for (unsigned int s = 0;
-                           s < GeometryInfo<dim>::max_children_per_face;
-                           ++s)
-                        add(cell->periodic_neighbor_child_on_subface(f, s),
-                            face);
-                  }
-              }
-            else if (!cell->at_boundary(f))
-              {
-                if (cell->neighbor_is_coarser(f))
-                  {
-                    add(cell->neighbor(f),
-                        cell->neighbor_of_coarser_neighbor(f).first);
-                    nearness.back() = 1. / 1.5;
-                  }
-                else
-                  {
-                    const unsigned int face = cell->neighbor_face_no(f);
-                    if (cell->face(f)->has_children())
-                      for (unsigned int s = 0; s < cell->face(f)->n_children();
-                           ++s)
-                        add(cell->neighbor_child_on_subface(f, s), face);
-                    else
-                      add(cell->neighbor(f), face);
-                  }
+                if (is_coarser)
+                  nearness.back() = 1. / 1.5;
               }
             if (neighbors.size() > first.back() + 1)
               nearness.back() = 1. / 0.75;

@@ -298,20 +298,38 @@ namespace
     report.require("shear front, behind", late / n - 1., 2e-3);
   }
 
-  /** A front of speed c in units of that of the closed medium. */
+  /** Loosened grains that are pushed from the left so that a front of speed c,
+   *  in units of that of the closed medium, closes them. */
+  struct LoosenedStrip
+  {
+    LoosenedStrip(const unsigned int n, const double c, const bool by_pressure)
+      : y(e0 * c * c / (1. - c * c))
+      , V(std::sqrt(y * (y + e0)))
+      , file(strip(2, n, 1., 1., false))
+    {
+      file.set({"Initial state"}, "Strain", text(e0) + "; 0; 0; 0");
+      if (by_pressure)
+        file.set({"Boundaries", "left"}, "Pressure", text(y));
+      else
+        file.set({"Boundaries", "left"}, "Velocity x", text(V));
+      file.set({"Boundaries", "right"}, "Displacement x", "0");
+    }
+
+    const double e0 = 0.03; ///< how far the grains are loosened
+    const double y;         ///< stress behind the front
+    const double V;         ///< velocity there
+    SceneFile    file;
+  };
+
+  /** Speed, jump and width of such a front. */
   void
   weak_front(Report &report, const double c, const bool by_pressure)
   {
-    const unsigned int n  = 400;
-    const double       e0 = 0.03, y = e0 * c * c / (1. - c * c),
-                 V = std::sqrt(y * (y + e0)), passage = 10. / (n * c);
-    SceneFile file = strip(2, n, 1., 1., false);
-    file.set({"Initial state"}, "Strain", text(e0) + "; 0; 0; 0");
-    if (by_pressure)
-      file.set({"Boundaries", "left"}, "Pressure", text(y));
-    else
-      file.set({"Boundaries", "left"}, "Velocity x", text(V));
-    file.set({"Boundaries", "right"}, "Displacement x", "0");
+    const unsigned int  n = 400;
+    const LoosenedStrip strip(n, c, by_pressure);
+    const double        e0 = strip.e0, y = strip.y, V = strip.V,
+                 passage = 10. / (n * c);
+    SceneFile file       = strip.file;
     file.set({"Time integration"}, "End time", text(0.61 / c + passage));
     file.set({"Time integration"}, "Statistics every", "5");
     file.set({"Output"}, "Probe points", "0.1, 0; 0.30125, 0; 0.6, 0");
@@ -384,12 +402,8 @@ namespace
   void
   implicit_front(Report &report, const double c, const unsigned int n)
   {
-    const double e0 = 0.03, y = e0 * c * c / (1. - c * c),
-                 V = std::sqrt(y * (y + e0));
-    SceneFile file = strip(2, n, 1., 1., false);
-    file.set({"Initial state"}, "Strain", text(e0) + "; 0; 0; 0");
-    file.set({"Boundaries", "left"}, "Velocity x", text(V));
-    file.set({"Boundaries", "right"}, "Displacement x", "0");
+    const LoosenedStrip strip(n, c, false);
+    SceneFile           file = strip.file;
     file.set({"Time integration"}, "Scheme", "implicit");
     file.set({"Time integration"}, "End time", text(0.75 / c));
     file.set({"Output"}, "Probe points", "0.3, 0");
@@ -397,7 +411,8 @@ namespace
     const auto lines   = run(file);
     double     highest = 0.;
     for (const auto &line : lines)
-      highest = std::max(highest, value(line, "velocity x at probe 1") / V);
+      highest =
+        std::max(highest, value(line, "velocity x at probe 1") / strip.V);
     std::ostringstream name;
     name << "implicit front of " << c << " on " << n << " cells";
     report.require(name.str() + ", overshoot", std::max(0., highest - 1.), 0.1);

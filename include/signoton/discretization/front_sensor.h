@@ -107,7 +107,7 @@ namespace Signoton
 
     /** How strongly in Pa a cell with voids may be pushed from outside: by the
      *  traction of its neighbors without voids, in the directions in which it
-     *  closes. Infinite if there are none. */
+     *  moves. Infinite if there are none. */
     double
     support(const unsigned int cell) const
     {
