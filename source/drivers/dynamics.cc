@@ -38,9 +38,9 @@ namespace Signoton
                                &mass,
                                &inverse_mass,
                                &internal,
-                               &old_internal})
+                               &old_internal,
+                               &external})
       model.mechanics->initialize_vector(*vector);
-    model.mechanics->initialize_mesh_vector(external);
     if (loads.vary())
       old_external.reinit(external);
     if (!absorbing.empty())
@@ -102,8 +102,7 @@ namespace Signoton
   {
     const auto timer = model.ledger.time("external force");
     model.set_time(time);
-    loads.add(kind, model.space->mesh_constraints, force);
-    force.compress(VectorOperation::add);
+    loads.add(kind, force);
   }
 
   template <int dim>

@@ -10,7 +10,9 @@ namespace Signoton
     , radius(model.time_integration.spectral_radius)
     , beta(1. / ((1. + radius) * (1. + radius)))
     , gamma(0.5 + (1. - radius) / (1. + radius))
-    , problem(model, supports, absorbing, mass)
+    , inertia(*model.space, mass, predicted, pull)
+    , resistance(*model.space, absorbing, predicted)
+    , problem(model, supports, {&inertia, &resistance})
     , newton(model.newton)
   {}
 
@@ -118,7 +120,9 @@ namespace Signoton
     model.mechanics->set_time_step(dt);
     trial = {displacement, velocity, acceleration};
     supports.move(displacement, time - dt, dt, trial.velocity);
-    VectorType lift, predicted(displacement), pull(external);
+    predicted = displacement;
+    pull      = external;
+    VectorType lift;
     lift.reinit(displacement);
     for (const auto &node : supports.moving())
       node.write(dt * node.held_part(trial.velocity), lift);
@@ -151,10 +155,8 @@ namespace Signoton
       }
     for (const auto &node : supports.moving())
       node.set_held_part(Tensor<1, dim>(), pull);
-    problem.set_step((2. - radius) / (beta * dt * dt),
-                     gamma / (beta * dt),
-                     predicted,
-                     pull);
+    inertia.set_coefficient((2. - radius) / (beta * dt * dt));
+    resistance.set_coefficient(gamma / (beta * dt));
 
     model.space->mesh_constraints.distribute(trial.displacement);
     model.space->mesh_constraints.distribute(lift);

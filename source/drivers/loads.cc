@@ -32,25 +32,21 @@ namespace Signoton
 
   template <int dim>
   void
-  Loads<dim>::add(const LoadKind                   kind,
-                  const AffineConstraints<double> &constraints,
-                  VectorType                      &force) const
+  Loads<dim>::add(const LoadKind kind, VectorType &force) const
   {
     if (model.gravity && kind == load_kind(model.gravity_varies))
-      add_body_force(
-        *model.space, model.materials, *model.gravity, constraints, force);
-    surface_load.add(kind, constraints, force);
-    point_forces.add(kind, constraints, force);
+      add_body_force(*model.space, model.materials, *model.gravity, force);
+    surface_load.add(kind, force);
+    point_forces.add(kind, force);
+    force.compress(VectorOperation::add);
   }
 
   template <int dim>
   void
-  Loads<dim>::add_all(const AffineConstraints<double> &constraints,
-                      VectorType                      &force) const
+  Loads<dim>::add_all(VectorType &force) const
   {
     for (const LoadKind kind : {LoadKind::steady, LoadKind::varying})
-      add(kind, constraints, force);
-    force.compress(VectorOperation::add);
+      add(kind, force);
   }
 
   template class Loads<2>;

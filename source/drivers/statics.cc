@@ -11,7 +11,7 @@ namespace Signoton
   Statics<dim>::Statics(Model<dim> &model)
     : model(model)
     , loads(model)
-    , problem(model)
+    , problem(model, supports)
     , newton(model.newton)
     , results(model)
     , time(model.load_steps.start)
@@ -27,6 +27,7 @@ namespace Signoton
       model.space->distribute_dofs();
       model.space->update_constraints(model.conditions);
       model.mechanics->reinit();
+      supports.reinit(*model.space, model.conditions);
       loads.reinit();
     }
     problem.reinit();
@@ -196,17 +197,21 @@ namespace Signoton
     // still
     const auto timer = model.ledger.time("constitutive update");
     model.mechanics->set_time_step(1e-6 * step_size);
-    VectorType force(displacement);
-    model.mechanics->internal_force(displacement, force, false);
+    VectorType force;
+    force.reinit(displacement);
+    model.mechanics->evaluate(displacement, force, false);
     model.mechanics->commit();
     const double stored_after =
       model.mechanics->energy_balance(displacement).stored;
     record.transfer_drift += stored_after - stored_before;
     // a step that is cut starts from here
+    find_carried_load();
     if (results.n_accepted() > 0)
       {
-        support_force = problem.internal_force_of_mesh(displacement);
-        support_force -= carried_load();
+        force = 0.;
+        model.mechanics->evaluate(displacement, force, false);
+        support_force = force;
+        support_force -= carried_load;
       }
     else
       support_force.reinit(displacement);
@@ -290,15 +295,18 @@ namespace Signoton
   }
 
   template <int dim>
-  VectorType
-  Statics<dim>::carried_load()
+  void
+  Statics<dim>::find_carried_load()
   {
+    carried_load.reinit(displacement);
     if (results.n_accepted() == 0)
-      return problem.internal_force_of_mesh(displacement);
-    model.set_time(time);
-    VectorType load = problem.loads_of_mesh(loads);
-    model.set_time(record.time);
-    return load;
+      model.mechanics->evaluate(displacement, carried_load, false);
+    else
+      {
+        model.set_time(time);
+        loads.add_all(carried_load);
+        model.set_time(record.time);
+      }
   }
 
   template <int dim>
@@ -309,12 +317,11 @@ namespace Signoton
     record.balance   = model.mechanics->energy_balance(trial);
     VectorType increment(trial);
     increment -= displacement;
-    record.external_work = 0.5 * (support_work + carried_load() * increment);
-    // writes the trial history of the converged iterate, to be committed
-    support_force = problem.internal_force_of_mesh(trial);
-    record.external_work += 0.5 * (support_force * increment);
-    support_force -= problem.loads_of_mesh(loads);
-    record.reactions = reaction_columns(model, support_force);
+    record.external_work = 0.5 * (support_work + carried_load * increment +
+                                  problem.forces() * increment);
+    support_force        = problem.support_forces();
+    carried_load         = problem.loads();
+    record.reactions     = reaction_columns(model, support_force);
     // Regions and flow are those of the step: they are seen from its begin.
     time = record.time;
     results.step(trial, record, is_last_step());
@@ -347,6 +354,7 @@ namespace Signoton
         setup_unknowns();
         for (VectorType *vector : {&displacement, &support_force})
           model.mechanics->initialize_vector(*vector);
+        find_carried_load();
       }
     else
       {
@@ -369,6 +377,7 @@ namespace Signoton
         model.space->mesh_constraints.distribute(displacement);
         model.space->mesh_constraints.set_zero(support_force);
         results.resume(checkpoint);
+        find_carried_load();
       }
     results.start(time);
     if (resume_directory.empty())

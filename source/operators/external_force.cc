@@ -11,7 +11,6 @@ namespace Signoton
   add_body_force(const Space<dim>                      &space,
                  const std::vector<Rheology::Material> &materials,
                  const Function<dim>                   &gravity,
-                 const AffineConstraints<double>       &constraints,
                  VectorType                            &force)
   {
     boost::container::flat_map<types::material_id, double> density;
@@ -43,7 +42,9 @@ namespace Signoton
                                g[space.fe.system_to_component_index(i).first];
           }
         cell->get_dof_indices(dofs);
-        constraints.distribute_local_to_global(cell_force, dofs, force);
+        space.mesh_constraints.distribute_local_to_global(cell_force,
+                                                          dofs,
+                                                          force);
       }
   }
 
@@ -52,6 +53,7 @@ namespace Signoton
   SurfaceLoad<dim>::reinit(const Space<dim>              &space,
                            const BoundaryConditions<dim> &conditions)
   {
+    mesh_constraints = &space.mesh_constraints;
     faces.clear();
     boost::container::flat_map<types::boundary_id,
                                const BoundaryCondition<dim> *>
@@ -107,9 +109,7 @@ namespace Signoton
 
   template <int dim>
   void
-  SurfaceLoad<dim>::add(const LoadKind                   kind,
-                        const AffineConstraints<double> &constraints,
-                        VectorType                      &force) const
+  SurfaceLoad<dim>::add(const LoadKind kind, VectorType &force) const
   {
     Vector<double> face_force;
     for (const Face &face : faces)
@@ -129,7 +129,9 @@ namespace Signoton
             for (unsigned int i = 0; i < face.dofs.size(); ++i)
               face_force[i] += face.weights(i, q) * density[face.component[i]];
           }
-        constraints.distribute_local_to_global(face_force, face.dofs, force);
+        mesh_constraints->distribute_local_to_global(face_force,
+                                                     face.dofs,
+                                                     force);
       }
   }
 
@@ -137,7 +139,6 @@ namespace Signoton
   template void add_body_force<dim>(const Space<dim> &,                      \
                                     const std::vector<Rheology::Material> &, \
                                     const Function<dim> &,                   \
-                                    const AffineConstraints<double> &,       \
                                     VectorType &);                           \
   template class SurfaceLoad<dim>;
 

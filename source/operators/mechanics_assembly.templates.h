@@ -13,8 +13,7 @@ namespace Signoton
   {
     // Column by column of all cells of a batch, as MatrixFreeTools do it; in
     // debug mode those of deal.II 9.4 refuse a mesh of several materials.
-    matrix = 0.;
-    Cell               cell(data, all_constraints);
+    Cell               cell(data);
     const unsigned int n  = cell.dofs_per_cell;
     const auto &numbering = data.get_shape_info().lexicographic_numbering;
     std::vector<types::global_dof_index> dofs(n), sorted(n);
@@ -44,7 +43,6 @@ namespace Signoton
                                                          matrix);
           }
       }
-    matrix.compress(VectorOperation::add);
   }
 } // namespace Signoton
 

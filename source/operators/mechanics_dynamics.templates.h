@@ -36,7 +36,7 @@ namespace Signoton
     const bool          shocked = bool(shock_viscosity);
     std::optional<Cell> begin; // of the step, for shock viscosity
     if (shocked)
-      begin.emplace(data, mesh_constraints);
+      begin.emplace(data);
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         const unsigned int n_lanes =
@@ -153,18 +153,16 @@ namespace Signoton
     DynamicSums sums;
     if constexpr ((request & Rheology::energies) != 0)
       history.begin_trial();
-    const VectorType &source = in_layout(displacement, mesh_constraints);
-    collect(force, mesh_constraints, [&](VectorType &result) {
-      data.template cell_loop<VectorType, VectorType>(
-        [&](const auto &, auto &dst, const auto &src, const Range &range) {
-          Cell cell(data, mesh_constraints);
-          for_each_run(range, [&](const auto &law, const Range &run) {
-            dynamic_run<request>(law, cell, run, src, dst, sums);
-          });
-        },
-        result,
-        source);
-    });
+    force = 0.;
+    data.template cell_loop<VectorType, VectorType>(
+      [&](const auto &, auto &dst, const auto &src, const Range &range) {
+        Cell cell(data);
+        for_each_run(range, [&](const auto &law, const Range &run) {
+          dynamic_run<request>(law, cell, run, src, dst, sums);
+        });
+      },
+      force,
+      displacement);
     if (!rest_strain.empty())
       force += rest_force;
     if (shock_viscosity)
@@ -200,7 +198,7 @@ namespace Signoton
     constexpr unsigned int n_extensions = Embedding::axisymmetric ? 3 : dim;
     std::vector<double>    size(materials.size(),
                              std::numeric_limits<double>::max());
-    Cell                   cell(data, mesh_constraints);
+    Cell                   cell(data);
     for (unsigned int batch = 0; batch < data.n_cell_batches(); ++batch)
       {
         cell.reinit(batch);

@@ -60,19 +60,21 @@ namespace Signoton
     void
     initialize_vector(VectorType &vector) const override;
     void
-    initialize_mesh_vector(VectorType &vector) const override;
-    void
     balance_rest(const VectorType &external) override;
     double
-    internal_force(const VectorType &displacement,
-                   VectorType       &force,
-                   const bool        with_tangent) override;
+    evaluate(const VectorType &displacement,
+             VectorType       &force,
+             const bool        linearize) override;
     typename Mechanics<dim>::ElementForces
     element_forces(const VectorType &displacement) override;
     double
+    size_of_differences(const VectorType &displacement) override;
+    bool
+    is_linear() const override;
+    bool
+    has_potential() const override;
+    double
     strain_by_stress(const VectorType &displacement) override;
-    void
-    reactions(const VectorType &displacement, VectorType &force) override;
     void
     binder_force(const VectorType &displacement, VectorType &force) override;
     void
@@ -134,13 +136,6 @@ namespace Signoton
     static constexpr double part_of_size =
       degree == 1 ? 1. : 1. / (1.15 * 2.449489742783178);
 
-    /** Index in the MatrixFree data of the two sets of constraints. */
-    enum DofIndex : unsigned int
-    {
-      all_constraints  = 0,
-      mesh_constraints = 1
-    };
-
     /** What a sweep does with the response at each point. */
     struct PointResponse
     {
@@ -154,16 +149,6 @@ namespace Signoton
 
     void
     find_materials();
-
-    /** A vector in the layout of a set of constraints: itself, or its copy. */
-    const VectorType &
-    in_layout(const VectorType &vector, const DofIndex dof_index);
-
-    /** Clear a vector, call `action(result)` to add to it in the layout of a set
-     *  of constraints. */
-    template <typename Action>
-    void
-    collect(VectorType &vector, const DofIndex dof_index, const Action &action);
 
     /** Unknowns of the point space on the cell in a lane of a batch. */
     void
@@ -209,12 +194,11 @@ namespace Signoton
     void
     for_each_run(const Range &range, const Action &action) const;
 
-    /** The nonlinear cell operation: evaluate, update, integrate. */
+    /** The nonlinear cell operation: evaluate, update, integrate. Adds to the
+     *  force; the energy is that of own cells. */
     template <unsigned int request>
     double
-    sweep(const VectorType &displacement,
-          VectorType       &force,
-          const DofIndex    dof_index);
+    sweep(const VectorType &displacement, VectorType &force);
     template <unsigned int request, typename Law>
     double
     update_run(const Law        &law,
@@ -318,11 +302,7 @@ namespace Signoton
     double                                quiet_displacement = -1.; ///< in m
     std::vector<unsigned int>             material_of_id;
 
-    Data data;
-    // By the constraints, different unknowns of other ranks may be ghosts here.
-    // Then, on any rank, vectors are copied for sweeps with those of the mesh.
-    bool                      layouts_agree = true;
-    VectorType                mesh_source, mesh_result;
+    Data                      data;
     std::vector<unsigned int> material_of_batch;
     /** Elastic tangents by material: regularization, and what linear
      *  materials have instead of a tangent at every point. */

@@ -84,18 +84,10 @@ namespace Signoton
         options.cell_vectorization_category[cell->active_cell_index()] =
           material_of_id[cell->material_id()];
     data.reinit(space.mapping,
-                std::vector<const DoFHandler<dim> *>{&space.dof_handler,
-                                                     &space.dof_handler},
-                std::vector<const AffineConstraints<double> *>{
-                  &space.constraints, &space.mesh_constraints},
-                std::vector<QGauss<1>>{QGauss<1>(degree + 1)},
+                space.dof_handler,
+                space.mesh_constraints,
+                QGauss<1>(degree + 1),
                 options);
-    layouts_agree = data.get_vector_partitioner(all_constraints)
-                      ->is_globally_compatible(
-                        *data.get_vector_partitioner(mesh_constraints));
-    if (!layouts_agree)
-      for (VectorType *vector : {&mesh_source, &mesh_result})
-        initialize_mesh_vector(*vector);
     find_materials();
     if (initial_state)
       find_rest();
@@ -124,7 +116,7 @@ namespace Signoton
           tangent_offset[batch] +
           (linear ? 0 :
                     n_points * n_tangent_entries<Embedding>(
-                                 has_potential(laws[material])));
+                                 Rheology::has_potential(laws[material])));
       }
     history.reinit(widths, n_points);
     tangents.resize(0);
@@ -135,44 +127,7 @@ namespace Signoton
   MechanicsKernel<Embedding, degree>::initialize_vector(
     VectorType &vector) const
   {
-    data.initialize_dof_vector(vector, all_constraints);
-  }
-
-  template <typename Embedding, int degree>
-  void
-  MechanicsKernel<Embedding, degree>::initialize_mesh_vector(
-    VectorType &vector) const
-  {
-    data.initialize_dof_vector(vector, mesh_constraints);
-  }
-
-  template <typename Embedding, int degree>
-  const VectorType &
-  MechanicsKernel<Embedding, degree>::in_layout(const VectorType &vector,
-                                                const DofIndex    dof_index)
-  {
-    if (layouts_agree || dof_index == all_constraints)
-      return vector;
-    mesh_source.copy_locally_owned_data_from(vector);
-    return mesh_source;
-  }
-
-  template <typename Embedding, int degree>
-  template <typename Action>
-  void
-  MechanicsKernel<Embedding, degree>::collect(VectorType    &vector,
-                                              const DofIndex dof_index,
-                                              const Action  &action)
-  {
-    const bool  copy   = !layouts_agree && dof_index == mesh_constraints;
-    VectorType &result = copy ? mesh_result : vector;
-    // Not left to the loop, which clears parts of the vector just in time: it
-    // tells by the layout of the vector which unknowns are touched when, and
-    // with one rank both sets of constraints have the same layout.
-    result = 0.;
-    action(result);
-    if (copy)
-      vector.copy_locally_owned_data_from(result);
+    data.initialize_dof_vector(vector);
   }
 
   template <typename Embedding, int degree>
@@ -302,24 +257,20 @@ namespace Signoton
   template <unsigned int request>
   double
   MechanicsKernel<Embedding, degree>::sweep(const VectorType &displacement,
-                                            VectorType       &force,
-                                            const DofIndex    dof_index)
+                                            VectorType       &force)
   {
     double sum = 0.;
     history.begin_trial();
-    const VectorType &source = in_layout(displacement, dof_index);
-    collect(force, dof_index, [&](VectorType &result) {
-      data.template cell_loop<VectorType, VectorType>(
-        [&](const auto &, auto &dst, const auto &src, const Range &range) {
-          Cell cell(data, dof_index);
-          for_each_run(range, [&](const auto &law, const Range &run) {
-            sum += update_run<request>(law, cell, run, src, dst);
-          });
-        },
-        result,
-        source);
-    });
-    return Utilities::MPI::sum(sum, space.communicator);
+    data.template cell_loop<VectorType, VectorType>(
+      [&](const auto &, auto &dst, const auto &src, const Range &range) {
+        Cell cell(data);
+        for_each_run(range, [&](const auto &law, const Range &run) {
+          sum += update_run<request>(law, cell, run, src, dst);
+        });
+      },
+      force,
+      displacement);
+    return sum;
   }
 
   template <typename Embedding, int degree>
@@ -339,14 +290,14 @@ namespace Signoton
     const bool          shocked = bool(shock_viscosity);
     std::optional<Cell> begin; // of the step, for shock viscosity
     if (shocked)
-      begin.emplace(data, mesh_constraints);
+      begin.emplace(data);
     Rheology::Response<Number> response;
     auto   accepted = Rheology::make_history<Number>(law), next = accepted;
     double sum = 0.;
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         cell.reinit(batch);
-        cell.read_dof_values_plain(displacement);
+        cell.read_dof_values(displacement);
         cell.evaluate(cell_flags<Embedding>);
         ShockStress<Number> shock;
         if (shocked)
@@ -398,26 +349,34 @@ namespace Signoton
 
   template <typename Embedding, int degree>
   double
-  MechanicsKernel<Embedding, degree>::internal_force(
-    const VectorType &displacement,
-    VectorType       &force,
-    const bool        with_tangent)
+  MechanicsKernel<Embedding, degree>::evaluate(const VectorType &displacement,
+                                               VectorType       &force,
+                                               const bool        linearize)
   {
-    if (!with_tangent)
-      return sweep<Rheology::potential>(displacement, force, all_constraints);
+    if (!linearize)
+      return sweep<Rheology::potential>(displacement, force);
     if (tangents.size() != tangent_offset.back())
       tangents.resize(tangent_offset.back());
-    return sweep<Rheology::potential | Rheology::tangent>(displacement,
-                                                          force,
-                                                          all_constraints);
+    return sweep<Rheology::potential | Rheology::tangent>(displacement, force);
   }
 
   template <typename Embedding, int degree>
-  void
-  MechanicsKernel<Embedding, degree>::reactions(const VectorType &displacement,
-                                                VectorType       &force)
+  bool
+  MechanicsKernel<Embedding, degree>::is_linear() const
   {
-    sweep<Rheology::stress>(displacement, force, mesh_constraints);
+    return !shock_viscosity &&
+           std::all_of(materials.begin(), materials.end(), [](const auto &m) {
+             return m.is_elastic();
+           });
+  }
+
+  template <typename Embedding, int degree>
+  bool
+  MechanicsKernel<Embedding, degree>::has_potential() const
+  {
+    return std::all_of(materials.begin(), materials.end(), [](const auto &m) {
+      return m.has_potential();
+    });
   }
 
   template <typename Embedding, int degree>
@@ -459,18 +418,17 @@ namespace Signoton
   {
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &dst, const auto &src, const Range &range) {
-        Cell cell(data, all_constraints);
+        Cell cell(data);
         for (unsigned int batch = range.first; batch < range.second; ++batch)
           {
             cell.reinit(batch);
-            cell.read_dof_values_plain(src);
+            cell.read_dof_values(src);
             tangent_operation(cell, 0.);
             cell.distribute_local_to_global(dst);
           }
       },
       force,
-      increment,
-      true);
+      increment);
   }
 
   template <typename Embedding, int degree>

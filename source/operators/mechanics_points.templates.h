@@ -25,7 +25,7 @@ namespace Signoton
     for (unsigned int batch = run.first; batch < run.second; ++batch)
       {
         cell.reinit(batch);
-        cell.read_dof_values_plain(displacement);
+        cell.read_dof_values(displacement);
         cell.evaluate(cell_flags<Embedding>);
         for (unsigned int q = 0; q < cell.n_q_points; ++q)
           {
@@ -50,7 +50,7 @@ namespace Signoton
     initialize_vector(unused);
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &, const auto &src, const Range &range) {
-        Cell cell(data, all_constraints);
+        Cell cell(data);
         for_each_run(range, [&](const auto &law, const Range &run) {
           visit_run(law, cell, run, src, visitor);
         });
@@ -69,11 +69,11 @@ namespace Signoton
     initialize_vector(unused);
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &, const auto &src, const Range &range) {
-        Cell cell(data, all_constraints);
+        Cell cell(data);
         for (unsigned int batch = range.first; batch < range.second; ++batch)
           {
             cell.reinit(batch);
-            cell.read_dof_values_plain(src);
+            cell.read_dof_values(src);
             Number largest(0.), stiffness(0.), square(0.);
             for (unsigned int i = 0; i < Cell::static_dofs_per_cell; ++i)
               largest = std::max(largest, std::abs(cell.begin_dof_values()[i]));
@@ -107,6 +107,14 @@ namespace Signoton
                         space.communicator,
                         ArrayView<double>(sums.data(), sums.size()));
     return {std::sqrt(sums[0]), std::sqrt(sums[1])};
+  }
+
+  template <typename Embedding, int degree>
+  double
+  MechanicsKernel<Embedding, degree>::size_of_differences(
+    const VectorType &displacement)
+  {
+    return element_forces(displacement).with_rigid_motion;
   }
 
   template <typename Embedding, int degree>
@@ -184,7 +192,7 @@ namespace Signoton
         strain += point.response.plastic_strain;
       stress[point.batch * n_points + point.q] = binders[m].stress(strain);
     });
-    data.initialize_dof_vector(force, mesh_constraints);
+    data.initialize_dof_vector(force);
     integrate_stress(
       [&](const unsigned int batch, const unsigned int q) {
         return stress[batch * n_points + q];
@@ -291,7 +299,7 @@ namespace Signoton
   {
     states.resize(cells.size() * n_points);
     const GhostValues ghosts(displacement);
-    Cell              cell(data, all_constraints);
+    Cell              cell(data);
     // batches are wider than what is asked for: each is visited once for all of
     // its cells
     for (std::size_t begin = 0, end; begin < cells.size(); begin = end)

@@ -53,7 +53,7 @@ namespace Signoton
           const double time = Rheology::relaxation_time(materials[m].scheme());
           general->set_time_step(1e10 * (time > 0. ? time : 1.));
         }
-    Cell       cell(data, mesh_constraints);
+    Cell       cell(data);
     double     largest       = 0.; // of the differences from given stresses
     double     largest_given = 0.;
     Point<dim> place;
@@ -175,10 +175,10 @@ namespace Signoton
                                                        VectorType   &force)
   {
     VectorType unused;
-    data.initialize_dof_vector(unused, mesh_constraints);
+    data.initialize_dof_vector(unused);
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &dst, const auto &, const Range &range) {
-        Cell cell(data, mesh_constraints);
+        Cell cell(data);
         for (unsigned int batch = range.first; batch < range.second; ++batch)
           {
             cell.reinit(batch);
@@ -196,7 +196,7 @@ namespace Signoton
   void
   MechanicsKernel<Embedding, degree>::integrate_rest()
   {
-    data.initialize_dof_vector(rest_force, mesh_constraints);
+    data.initialize_dof_vector(rest_force);
     integrate_stress(
       [&](const unsigned int batch, const unsigned int q) {
         return tensor_at(rest_stress, batch, q);

@@ -84,7 +84,7 @@ namespace Signoton
     for (unsigned int d = 0; d < dim; ++d)
       extent = std::max(extent, box.side_length(d));
     sensor.reinit(space.mesh);
-    initialize_mesh_vector(step_begin);
+    initialize_vector(step_begin);
     step_begin.update_ghost_values();
   }
 
@@ -220,7 +220,7 @@ namespace Signoton
     if (!shock_viscosity)
       return;
     VectorType of_shock;
-    data.initialize_dof_vector(of_shock, mesh_constraints);
+    data.initialize_dof_vector(of_shock);
     integrate_stress(
       [&](const unsigned int batch, const unsigned int) {
         Tensor2<Number> stress;

@@ -78,9 +78,7 @@ namespace Signoton
 
   template <int dim>
   void
-  PointForces<dim>::add(const LoadKind                   kind,
-                        const AffineConstraints<double> &constraints,
-                        VectorType                      &force) const
+  PointForces<dim>::add(const LoadKind kind, VectorType &force) const
   {
     if (places == nullptr)
       return;
@@ -103,7 +101,9 @@ namespace Signoton
                                                        place.cell->index(),
                                                        &space->dof_handler)
           ->get_dof_indices(dofs);
-        constraints.distribute_local_to_global(cell_force, dofs, force);
+        space->mesh_constraints.distribute_local_to_global(cell_force,
+                                                           dofs,
+                                                           force);
       }
   }
 

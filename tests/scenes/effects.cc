@@ -40,9 +40,9 @@ namespace
     model.mechanics->initialize_vector(u);
     model.mechanics->initialize_vector(force);
 
-    model.mechanics->internal_force(u, force, false);
+    model.mechanics->evaluate(u, force, false);
     const auto without_tangent = model.mechanics->memory();
-    model.mechanics->internal_force(u, force, true);
+    model.mechanics->evaluate(u, force, true);
     const auto with_tangent = model.mechanics->memory();
 
     std::cout << rheology << "\n";
@@ -107,7 +107,7 @@ namespace
     model.mechanics->initialize_vector(u);
     model.mechanics->initialize_vector(force);
     if (scheme == "implicit")
-      model.mechanics->internal_force(u, force, true);
+      model.mechanics->evaluate(u, force, true);
     model.mechanics->dynamic_force(u, force, false, -1.);
 
     const auto         memory = model.mechanics->memory();

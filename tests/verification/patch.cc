@@ -6,7 +6,7 @@
 
 #include "box_scene.h"
 
-#include <signoton/drivers/static_problem.h>
+#include <signoton/drivers/equilibrium_problem.h>
 
 #include <deal.II/numerics/vector_tools_integrate_difference.h>
 
@@ -172,7 +172,9 @@ namespace
 
     Loads<dim> loads(model);
     loads.reinit();
-    StaticProblem<dim> problem(model);
+    Supports<dim> supports;
+    supports.reinit(space, model.conditions);
+    EquilibriumProblem<dim> problem(model, supports);
     problem.reinit();
     problem.update_loads(loads);
     VectorType u, lift;

@@ -2,7 +2,8 @@
 #define signoton_drivers_implicit_dynamics_h
 
 #include <signoton/drivers/dynamics.h>
-#include <signoton/drivers/inertial_problem.h>
+#include <signoton/drivers/equilibrium_problem.h>
+#include <signoton/operators/inertia.h>
 
 namespace Signoton
 {
@@ -109,10 +110,15 @@ namespace Signoton
     double
     shortest_step() const;
 
-    const double         radius;
-    const double         beta, gamma;
-    InertialProblem<dim> problem;
-    Newton               newton;
+    const double radius;
+    const double beta, gamma;
+    /** The displacement that needs no acceleration at the end of the step, and
+     *  the forces that do not depend on the solution. */
+    VectorType              predicted, pull;
+    Inertia<dim>            inertia;
+    Dashpots<dim>           resistance;
+    EquilibriumProblem<dim> problem;
+    Newton                  newton;
 
     bool   has_warned        = false;
     bool   is_automatic      = true;

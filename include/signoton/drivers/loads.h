@@ -25,17 +25,13 @@ namespace Signoton
     vary() const;
 
     /** Add those of a kind, at the time last set in the model, to @p force in
-     *  N. Constrained entries are condensed by @p constraints. The caller
-     *  compresses. */
+     *  N, as the mesh bears them: see EnergyTerm. */
     void
-    add(const LoadKind                   kind,
-        const AffineConstraints<double> &constraints,
-        VectorType                      &force) const;
+    add(const LoadKind kind, VectorType &force) const;
 
-    /** Add all of them, and compress. */
+    /** Add all of them. */
     void
-    add_all(const AffineConstraints<double> &constraints,
-            VectorType                      &force) const;
+    add_all(VectorType &force) const;
 
   private:
     const Model<dim> &model;

@@ -1,8 +1,8 @@
 #ifndef signoton_drivers_statics_h
 #define signoton_drivers_statics_h
 
+#include <signoton/drivers/equilibrium_problem.h>
 #include <signoton/drivers/results.h>
-#include <signoton/drivers/static_problem.h>
 
 namespace Signoton
 {
@@ -69,9 +69,11 @@ namespace Signoton
     void
     report_binders();
 
-    /** The loads before the trial state, in N, on the present mesh. */
-    VectorType
-    carried_load();
+    /** Integrate the loads of the accepted state on the present mesh. Before
+     *  the first step the body carries what its initial stress is in balance
+     *  with. */
+    void
+    find_carried_load();
 
     /** Report the trial state and make it the accepted one. */
     void
@@ -84,7 +86,8 @@ namespace Signoton
 
     Model<dim>                      &model;
     Loads<dim>                       loads;
-    StaticProblem<dim>               problem;
+    Supports<dim>                    supports;
+    EquilibriumProblem<dim>          problem;
     Newton                           newton;
     std::unique_ptr<PointSpace<dim>> history_space;
     Results<dim>                     results;
@@ -95,6 +98,7 @@ namespace Signoton
     /** Internal forces without loads in the accepted state: where the body is
      *  supported, the reactions. */
     VectorType          support_force;
+    VectorType          carried_load;      ///< in the accepted state, in N
     double              support_work = 0.; ///< of these in the step, in J
     double              time         = 0.;
     double              step_size    = 0.; ///< of a step that is not cut

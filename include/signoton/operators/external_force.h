@@ -20,14 +20,13 @@ namespace Signoton
   }
 
   /** Add $\int\rho g\cdot v$ of all materials with a density, at the time last
-   *  set, to @p force in N. Constrained entries are condensed by
-   *  @p constraints. The caller compresses. */
+   *  set, to @p force in N, as the mesh bears it: see EnergyTerm. The caller
+   *  compresses. */
   template <int dim>
   void
   add_body_force(const Space<dim>                      &space,
                  const std::vector<Rheology::Material> &materials,
                  const Function<dim>                   &gravity,
-                 const AffineConstraints<double>       &constraints,
                  VectorType                            &force);
 
   /**
@@ -39,7 +38,7 @@ namespace Signoton
   class SurfaceLoad
   {
   public:
-    /** Find the loaded faces of the current mesh. @p conditions must outlive
+    /** Find the loaded faces of the current mesh. Both arguments must outlive
      *  the object. */
     void
     reinit(const Space<dim> &space, const BoundaryConditions<dim> &conditions);
@@ -47,9 +46,7 @@ namespace Signoton
     /** Add $\int t\cdot v$ of the loads of a kind at the time last set to
      *  @p force in N, as add_body_force() does. */
     void
-    add(const LoadKind                   kind,
-        const AffineConstraints<double> &constraints,
-        VectorType                      &force) const;
+    add(const LoadKind kind, VectorType &force) const;
 
   private:
     struct Face
@@ -63,7 +60,8 @@ namespace Signoton
       FullMatrix<double>                   weights; ///< dof times point, in m^2
     };
 
-    std::vector<Face> faces;
+    const AffineConstraints<double> *mesh_constraints = nullptr;
+    std::vector<Face>                faces;
   };
 } // namespace Signoton
 

@@ -1,10 +1,8 @@
 #ifndef signoton_operators_mechanics_h
 #define signoton_operators_mechanics_h
 
-#include <signoton/discretization/space.h>
+#include <signoton/operators/energy_term.h>
 #include <signoton/rheology/material.h>
-
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 namespace Signoton
 {
@@ -93,11 +91,9 @@ namespace Signoton
    * is a template argument.
    */
   template <int dim>
-  class Mechanics
+  class Mechanics : public EnergyTerm<dim>
   {
   public:
-    virtual ~Mechanics() = default;
-
     /** Set up for the current mesh and unknowns. History becomes zero. */
     virtual void
     reinit() = 0;
@@ -139,12 +135,6 @@ namespace Signoton
     virtual void
     initialize_vector(VectorType &vector) const = 0;
 
-    /** A vector of unknowns with the ghosts that the constraints of the mesh
-     *  alone need. They may be more: hanging nodes hang on prescribed unknowns,
-     *  too. */
-    virtual void
-    initialize_mesh_vector(VectorType &vector) const = 0;
-
     /** Where loads balance the initial stress but for round-off, let them
      *  balance it exactly in dynamic_force(), so that what is at rest stays
      *  there. */
@@ -152,16 +142,14 @@ namespace Signoton
     balance_rest(const VectorType &external) = 0;
 
     /**
-     * Internal force $\int\sigma_{n+1}:\varepsilon(v)$ at a displacement that
-     * fulfills all constraints, and with it the trial history. Shock viscosity
+     * The internal force $\int\sigma_{n+1}:\varepsilon(v)$, the incremental
+     * potential of the body, and with them the trial history. Shock viscosity
      * is in it, with rates since the begin of the step.
-     * @param with_tangent also keep the consistent tangent at the points
-     * @return the incremental potential of the body in J
      */
-    virtual double
-    internal_force(const VectorType &displacement,
-                   VectorType       &force,
-                   const bool        with_tangent) = 0;
+    double
+    evaluate(const VectorType &displacement,
+             VectorType       &force,
+             const bool        linearize) override = 0;
 
     /** Norms of forces of elements, in N. */
     struct ElementForces
@@ -184,36 +172,15 @@ namespace Signoton
     virtual double
     strain_by_stress(const VectorType &displacement) = 0;
 
-    /** The internal force with the entries of constrained unknowns, which are
-     *  the reactions there. Writes the trial history, as internal_force()
-     *  does. */
-    virtual void
-    reactions(const VectorType &displacement, VectorType &force) = 0;
-
-    /** The part of reactions() that the binders in parallel with contacts bear:
+    /** The part of the internal force that the binders in parallel with contacts bear:
      *  the force of $B:x$ with the strain x of what they bridge, in the accepted
      *  state. */
     virtual void
     binder_force(const VectorType &displacement, VectorType &force) = 0;
 
-    /** Product of the kept tangent with an increment that may be anything where
-     *  the displacement is prescribed. */
-    virtual void
-    apply_tangent(const VectorType &increment, VectorType &force) const = 0;
-
     /**
-     * The kept tangent as a matrix.
-     * @param regularization multiple of the elastic tangent that is added,
-     *   to keep loosened or flowing zones solvable; residuals never have it
-     */
-    virtual void
-    assemble(TrilinosWrappers::SparseMatrix &matrix,
-             const double                    regularization) = 0;
-
-    /**
-     * Internal force and trial history of explicit time integration. Hanging
-     * and periodic nodes are followed, and their forces condensed; conditions
-     * at the boundary are not looked at. Fronts are spread by a viscous stress
+     * Internal force, in place of what @p force had, and trial history of
+     * explicit time integration. Fronts are spread by a viscous stress
      * (after von Neumann and Richtmyer 1950, by the speed of the front; see
      * shock_coefficients()).
      * @param with_energies if not, only what is dissipated is summed up, and

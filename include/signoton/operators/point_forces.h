@@ -52,12 +52,10 @@ namespace Signoton
            const List        &list,
            PointLocator<dim> *places);
 
-    /** Add the forces of a kind at the time last set. The caller
-     *  compresses. */
+    /** Add the forces of a kind at the time last set, as the mesh bears them:
+     *  see EnergyTerm. The caller compresses. */
     void
-    add(const LoadKind                   kind,
-        const AffineConstraints<double> &constraints,
-        VectorType                      &force) const;
+    add(const LoadKind kind, VectorType &force) const;
 
   private:
     const Space<dim>  *space  = nullptr;

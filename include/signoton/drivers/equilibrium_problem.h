@@ -1,21 +1,32 @@
-#ifndef signoton_drivers_static_problem_h
-#define signoton_drivers_static_problem_h
+#ifndef signoton_drivers_equilibrium_problem_h
+#define signoton_drivers_equilibrium_problem_h
 
+#include <signoton/discretization/supports.h>
 #include <signoton/drivers/loads.h>
 
 namespace Signoton
 {
   /**
-   * The minimization that a load step is: $J(u)=\int W_n(\varepsilon(u))-L(u)$
-   * over the displacements that fulfill the constraints of the space.
+   * The minimization that a load step of statics, or an implicit step of
+   * dynamics, is: $J(u)=\sum_i J_i(u)-L(u)$ over the displacements that fulfill
+   * the constraints of the space. The first term is that of the material,
+   * others are added by the analysis.
+   *
+   * Each evaluation is one sweep, in the forces of the mesh: with all that
+   * balances in a node, whether it is supported or not. What the supports take
+   * is the reactions; the rest is the gradient.
    */
   template <int dim>
-  class StaticProblem : public ConvexProblem
+  class EquilibriumProblem : public ConvexProblem
   {
   public:
-    explicit StaticProblem(Model<dim> &model);
+    /** All arguments must outlive the object.
+     *  @param others terms beside that of the material */
+    EquilibriumProblem(Model<dim>                           &model,
+                       const Supports<dim>                  &supports,
+                       const std::vector<EnergyTerm<dim> *> &others = {});
 
-    /** Adapt to a new mesh. */
+    /** Adapt to a new mesh. There are no loads then. */
     void
     reinit();
 
@@ -23,9 +34,24 @@ namespace Signoton
     void
     update_loads(const Loads<dim> &loads);
 
-    /** The loads of that time in N, before the elimination of constraints. */
+    /** The loads last taken, in N. */
+    const VectorType &
+    loads() const
+    {
+      return load;
+    }
+
+    /** The forces of all terms at the displacement last evaluated, in N. */
+    const VectorType &
+    forces() const
+    {
+      return force;
+    }
+
+    /** forces() without loads: what the supports bear, see
+     *  reaction_columns(). */
     VectorType
-    loads_of_mesh(const Loads<dim> &loads) const;
+    support_forces() const;
 
     double
     evaluate(const VectorType &u,
@@ -67,34 +93,17 @@ namespace Signoton
     bool
     predict(VectorType &u, const VectorType &lift, const double regularization);
 
-    /** Internal force minus loads with the entries of constrained unknowns:
-     *  the forces of the supports, see reaction_columns(). */
-    VectorType
-    support_forces(const VectorType &u);
-
-    /** Internal force before the elimination of constraints. */
-    VectorType
-    internal_force_of_mesh(const VectorType &u);
-
-  protected:
-    /** What force_scale() returns instead of a scale that may vanish. */
-    double
-    not_vanishing(const double scale, const VectorType &u);
-
-    /** Add what the stiffness is not to the matrix. */
-    virtual void
-    complete(TrilinosWrappers::SparseMatrix &)
-    {}
-
-    Model<dim> &model;
-
   private:
     /** Assemble and prepare the solver unless that is done already. */
     void
     prepare(const double regularization);
 
-    VectorType                       load;
-    VectorType                       load_of_mesh;
+    Model<dim>                          &model;
+    const Supports<dim>                 &supports;
+    const std::vector<EnergyTerm<dim> *> others;
+
+    VectorType                       load, force;
+    double                           free_load = 0.; ///< norm of it, in N
     TrilinosWrappers::SparseMatrix   matrix;
     LinearSolver                     linear_solver;
     std::vector<std::vector<double>> near_null_space;

@@ -1,6 +1,6 @@
 #include <signoton/discretization/rigid_motions.h>
+#include <signoton/drivers/equilibrium_problem.h>
 #include <signoton/drivers/run_checks.h>
-#include <signoton/drivers/static_problem.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
@@ -11,20 +11,26 @@
 namespace Signoton
 {
   template <int dim>
-  StaticProblem<dim>::StaticProblem(Model<dim> &model)
+  EquilibriumProblem<dim>::EquilibriumProblem(
+    Model<dim>                           &model,
+    const Supports<dim>                  &supports,
+    const std::vector<EnergyTerm<dim> *> &others)
     : model(model)
+    , supports(supports)
+    , others(others)
     , linear_solver(model.linear_solver, model.ledger)
   {}
 
   template <int dim>
   void
-  StaticProblem<dim>::reinit()
+  EquilibriumProblem<dim>::reinit()
   {
     const auto  timer = model.ledger.time("setup");
     const auto &space = *model.space;
     const auto &owned = space.dof_handler.locally_owned_dofs();
-    model.mechanics->initialize_vector(load);
-    model.mechanics->initialize_mesh_vector(load_of_mesh);
+    for (VectorType *vector : {&load, &force})
+      model.mechanics->initialize_vector(*vector);
+    free_load = 0.;
 
     // The pattern has the rows and columns of boundary conditions, too: they
     // may eliminate one unknown of a node only, and multigrid aggregates whole
@@ -58,16 +64,18 @@ namespace Signoton
 
   template <int dim>
   void
-  StaticProblem<dim>::update_loads(const Loads<dim> &loads)
+  EquilibriumProblem<dim>::update_loads(const Loads<dim> &loads)
   {
     const auto timer = model.ledger.time("external force");
     auto      &space = *model.space;
     space.update_constraints(model.conditions);
     load = 0.;
-    loads.add_all(space.constraints, load);
-    load_of_mesh = loads_of_mesh(loads);
+    loads.add_all(load);
+    VectorType condensed(load);
+    supports.condense(condensed);
+    free_load = condensed.l2_norm();
 
-    double sum = load_of_mesh.l1_norm();
+    double sum = load.l1_norm();
     for (const auto &line : space.constraints.get_lines())
       sum += std::abs(line.inhomogeneity);
     if (std::isfinite(Utilities::MPI::sum(sum, model.communicator)))
@@ -83,67 +91,55 @@ namespace Signoton
 
   template <int dim>
   VectorType
-  StaticProblem<dim>::loads_of_mesh(const Loads<dim> &loads) const
+  EquilibriumProblem<dim>::support_forces() const
   {
-    VectorType force;
-    model.mechanics->initialize_mesh_vector(force);
-    loads.add_all(model.space->mesh_constraints, force);
-    return force;
+    VectorType result(force);
+    result -= load;
+    return result;
   }
 
   template <int dim>
   double
-  StaticProblem<dim>::evaluate(const VectorType &u,
-                               VectorType       &gradient,
-                               const bool        linearize)
+  EquilibriumProblem<dim>::evaluate(const VectorType &u,
+                                    VectorType       &gradient,
+                                    const bool        linearize)
   {
-    const auto timer = model.ledger.time("constitutive update");
     if (linearize)
       assembled.reset();
-    const double potential =
-      model.mechanics->internal_force(u, gradient, linearize);
+    force      = 0.;
+    double own = 0.;
+    {
+      const auto timer = model.ledger.time("constitutive update");
+      own              = model.mechanics->evaluate(u, force, linearize);
+    }
+    if (!others.empty())
+      {
+        const auto timer = model.ledger.time("time integration");
+        for (auto *term : others)
+          own += term->evaluate(u, force, linearize);
+      }
+    gradient = force;
     gradient -= load;
-    return potential - load * u;
-  }
-
-  template <int dim>
-  VectorType
-  StaticProblem<dim>::internal_force_of_mesh(const VectorType &u)
-  {
-    VectorType force;
-    model.mechanics->initialize_vector(force);
-    model.mechanics->reactions(u, force);
-    return force;
-  }
-
-  template <int dim>
-  VectorType
-  StaticProblem<dim>::support_forces(const VectorType &u)
-  {
-    VectorType force = internal_force_of_mesh(u);
-    force -= load_of_mesh;
-    return force;
+    supports.condense(gradient);
+    return Utilities::MPI::sum(own, model.communicator) - load * u;
   }
 
   template <int dim>
   double
-  StaticProblem<dim>::force_scale(const VectorType &u)
+  EquilibriumProblem<dim>::force_scale(const VectorType &u)
   {
-    const auto       timer   = model.ledger.time("constitutive update");
-    const VectorType support = support_forces(u);
-    double           sum     = 0.;
-    for (const auto dof : support.locally_owned_elements())
-      if (model.space->constraints.is_constrained(dof))
-        sum += support[dof] * support[dof];
-    return not_vanishing(
-      std::sqrt(Utilities::MPI::sum(sum, model.communicator)) + load.l2_norm(),
-      u);
-  }
+    double own = 0.;
+    for (const auto &node : supports.nodes())
+      {
+        const Tensor<1, dim> f = node.read(force) - node.read(load);
+        own += (f - node.projector * f).norm_square();
+      }
+    double scale =
+      std::sqrt(Utilities::MPI::sum(own, model.communicator)) + free_load;
+    for (const auto *term : others)
+      scale += term->outer_force();
 
-  template <int dim>
-  double
-  StaticProblem<dim>::not_vanishing(const double scale, const VectorType &u)
-  {
+    // not to vanish
     constexpr double part = 1e-3;
     if (!(largest_scale > 0. && scale > part * largest_scale))
       largest_scale =
@@ -154,17 +150,18 @@ namespace Signoton
 
   template <int dim>
   double
-  StaticProblem<dim>::round_off(const VectorType &u)
+  EquilibriumProblem<dim>::round_off(const VectorType &u)
   {
+    double size = model.mechanics->size_of_differences(u) + free_load;
+    for (auto *term : others)
+      size += term->size_of_differences(u);
     // of some operations for each of the numbers
-    return 16. * std::numeric_limits<double>::epsilon() *
-           (model.mechanics->element_forces(u).with_rigid_motion +
-            load.l2_norm());
+    return 16. * std::numeric_limits<double>::epsilon() * size;
   }
 
   template <int dim>
   bool
-  StaticProblem<dim>::follows_supports(const VectorType &u) const
+  EquilibriumProblem<dim>::follows_supports(const VectorType &u) const
   {
     double prescribed = 0.;
     for (const auto &line : model.space->constraints.get_lines())
@@ -175,7 +172,7 @@ namespace Signoton
 
   template <int dim>
   bool
-  StaticProblem<dim>::flows(const VectorType &u)
+  EquilibriumProblem<dim>::flows(const VectorType &u)
   {
     double weakest = 1.;
     for (const auto &material : model.materials)
@@ -185,24 +182,27 @@ namespace Signoton
 
   template <int dim>
   bool
-  StaticProblem<dim>::is_linear() const
+  EquilibriumProblem<dim>::is_linear() const
   {
-    return !(model.is_dynamic && model.time_integration.shock_viscosity) &&
-           std::all_of(model.materials.begin(),
-                       model.materials.end(),
-                       [](const auto &m) { return m.is_elastic(); });
+    return model.mechanics->is_linear() &&
+           std::all_of(others.begin(), others.end(), [](const auto *term) {
+             return term->is_linear();
+           });
   }
 
   template <int dim>
   void
-  StaticProblem<dim>::prepare(const double regularization)
+  EquilibriumProblem<dim>::prepare(const double regularization)
   {
     if (assembled && *assembled == regularization)
       return;
     {
       const auto timer = model.ledger.time("assembly");
+      matrix           = 0.;
       model.mechanics->assemble(matrix, regularization);
-      complete(matrix);
+      for (auto *term : others)
+        term->assemble(matrix, regularization);
+      matrix.compress(VectorOperation::add);
     }
     linear_solver.initialize(
       matrix, near_null_space, dim, model.space->degree, has_potential());
@@ -211,10 +211,10 @@ namespace Signoton
 
   template <int dim>
   LinearResult
-  StaticProblem<dim>::solve(const VectorType &rhs,
-                            VectorType       &du,
-                            const double      tolerance,
-                            const double      regularization)
+  EquilibriumProblem<dim>::solve(const VectorType &rhs,
+                                 VectorType       &du,
+                                 const double      tolerance,
+                                 const double      regularization)
   {
     prepare(regularization);
     const LinearResult result = linear_solver.solve(du, rhs, tolerance);
@@ -226,24 +226,29 @@ namespace Signoton
 
   template <int dim>
   bool
-  StaticProblem<dim>::has_potential() const
+  EquilibriumProblem<dim>::has_potential() const
   {
-    return std::all_of(model.materials.begin(),
-                       model.materials.end(),
-                       [](const auto &m) { return m.has_potential(); });
+    return model.mechanics->has_potential() &&
+           std::all_of(others.begin(), others.end(), [](const auto *term) {
+             return term->has_potential();
+           });
   }
 
   template <int dim>
   bool
-  StaticProblem<dim>::predict(VectorType       &u,
-                              const VectorType &lift,
-                              const double      regularization)
+  EquilibriumProblem<dim>::predict(VectorType       &u,
+                                   const VectorType &lift,
+                                   const double      regularization)
   {
     VectorType gradient(u), du(u);
     if (!(lift.linfty_norm() > 1e-14 * u.linfty_norm()))
       return true;
     evaluate(u, gradient, true);
+    du = 0.;
     model.mechanics->apply_tangent(lift, du);
+    for (const auto *term : others)
+      term->apply_tangent(lift, du);
+    supports.condense(du);
     gradient += du;
     gradient *= -1.;
     du = 0.;
@@ -258,6 +263,6 @@ namespace Signoton
     return result.converged;
   }
 
-  template class StaticProblem<2>;
-  template class StaticProblem<3>;
+  template class EquilibriumProblem<2>;
+  template class EquilibriumProblem<3>;
 } // namespace Signoton
