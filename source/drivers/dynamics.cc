@@ -267,7 +267,7 @@ namespace Signoton
                  {"unknowns by steps", unknown_steps}};
     if (std::any_of(model.materials.begin(),
                     model.materials.end(),
-                    [](const auto &m) { return m.has_cone(); }))
+                    [](const auto &m) { return m.has_cone; }))
       line.emplace_back("volume of voids", receipt.voids);
     const char *axes[] = {"momentum x", "momentum y", "momentum z"};
     const auto  p      = momentum();

@@ -75,7 +75,7 @@ namespace Signoton
     for (const auto &material : model.materials)
       {
         speed                = std::max(speed, material.longitudinal_speed());
-        const Moduli &moduli = material.elasticity();
+        const Moduli &moduli = material.elasticity;
         shear_modulus[material.id] = moduli.shear;
         stiffness = std::max(stiffness, moduli.bulk + 2. * moduli.shear);
       }
@@ -221,7 +221,7 @@ namespace Signoton
     const auto &mechanics = model.mechanics;
     if (std::any_of(model.materials.begin(),
                     model.materials.end(),
-                    [](const auto &m) { return m.is_viscous(); }))
+                    [](const auto &m) { return m.is_viscous; }))
       {
         // A step that is short, but not too short for differences of strain.
         const double moment = 1e-3 * time_step;

@@ -176,7 +176,7 @@ namespace Signoton
   {
     double weakest = 1.;
     for (const auto &material : model.materials)
-      weakest = std::min(weakest, material.binder_ratio());
+      weakest = std::min(weakest, material.binder_ratio);
     return model.mechanics->strain_by_stress(u) * weakest > 1e3;
   }
 

@@ -41,7 +41,7 @@ namespace Signoton
     const bool any_inelastic =
       std::any_of(model.materials.begin(),
                   model.materials.end(),
-                  [](const auto &material) { return !material.is_elastic(); });
+                  [](const auto &material) { return !material.is_elastic; });
     const bool any_history = model.mechanics->history_width() > 0;
     for (unsigned int c = 0; c < (dim == 2 ? 4 : 6); ++c)
       {

@@ -33,7 +33,7 @@ namespace Signoton
                       "one, the material of the point",
                       "'subsection Materials', 'subsection sand', 'set "
                       "Rheology = ...'");
-    material.emplace(names[0]);
+    constants.emplace(names[0]);
     add_parameters();
     file.apply_to(handler);
     title     = unquoted(title);
@@ -236,7 +236,7 @@ namespace Signoton
       return ExitStatus::completed;
     screen << "No state found that follows t = " << state.time
            << " by the program. The lines before are complete.\n"
-           << "  " << classification(material->scheme()) << "\n"
+           << "  " << classification(material->scheme) << "\n"
            << (by_strain ?
                  "  try: smaller strains, or moduli that differ less\n" :
                  "  try: a program that stays within the strength, or by "

@@ -8,15 +8,15 @@ namespace Signoton
   using namespace Rheology;
 
   PointLaw::PointLaw(const Material &material)
-    : law(material.law())
+    : law(make_law(material))
   {
-    if (!material.has_potential())
+    if (!material.has_potential)
       {
-        const Moduli moduli = material.elasticity();
+        const Moduli moduli = material.elasticity;
         elastic_stiffness   = std::max(3. * moduli.bulk, 2. * moduli.shear);
       }
     else
-      network = std::make_unique<Network>(material.scheme());
+      network = std::make_unique<Network>(material.scheme);
   }
 
   void

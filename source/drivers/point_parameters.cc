@@ -1,6 +1,7 @@
 #include <signoton/base/number.h>
 #include <signoton/base/quoting.h>
 #include <signoton/drivers/point.h>
+#include <signoton/rheology/classification.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -38,8 +39,8 @@ namespace Signoton
   {
     handler.add_parameter("Title", title, "What the file shows.");
     handler.enter_subsection("Materials");
-    handler.enter_subsection(material->name);
-    material->add_parameters(handler);
+    handler.enter_subsection(constants->name);
+    constants->add_parameters(handler);
     handler.leave_subsection();
     handler.leave_subsection();
     handler.enter_subsection("Schemes");
@@ -159,7 +160,7 @@ namespace Signoton
                             const std::string &hint) {
       throw UserError(file.where(path, key), found, expected, hint);
     };
-    material->check(file);
+    material = constants->make(file);
     for (unsigned int c = 0; c < 6; ++c)
       components[c].factor = c < 3 ? 1. : std::sqrt(2.);
 
@@ -235,9 +236,9 @@ namespace Signoton
       vertical = kind == "hydrostatic" ? "mean stress" : "stress " + driven;
     by_strain = stress_is_given() == std::array<bool, 6>{};
     if (by_strain)
-      material->require_stress_from_strain();
+      Rheology::require_stress_from_strain(material->scheme, material->where);
     else
-      material->require_resistance();
+      Rheology::require_resistance(material->scheme, material->where);
     law = std::make_unique<PointLaw>(*material);
     law->set_control(stress_is_given());
   }

@@ -74,7 +74,7 @@ namespace Signoton
     // Continuation in the binders: each solution starts the next.
     double weakest = 1.;
     for (const auto &material : model.materials)
-      weakest = std::min(weakest, material.binder_ratio());
+      weakest = std::min(weakest, material.binder_ratio);
     if (!(weakest < 0.1))
       return result;
     u                           = guess;
@@ -82,16 +82,13 @@ namespace Signoton
     for (double ratio = 0.1; true; ratio *= 0.1)
       {
         const bool is_last = ratio <= 1.1 * std::max(weakest, weakest_of_all);
-        if (is_last)
-          model.mechanics->set_binder_ratio();
-        else
-          model.mechanics->set_binder_ratio(ratio);
+        model.mechanics->set_scaling({is_last ? 0. : ratio});
         result = newton.solve(problem, u);
         record.solves.push_back(result);
         if (is_last || !result.converged)
           break;
       }
-    model.mechanics->set_binder_ratio();
+    model.mechanics->set_scaling({});
     return result;
   }
 
@@ -110,7 +107,7 @@ namespace Signoton
       ByMaterial shear_modulus, stiffness;
       for (const auto &material : model.materials)
         {
-          const Moduli &moduli       = material.elasticity();
+          const Moduli &moduli       = material.elasticity;
           shear_modulus[material.id] = moduli.shear;
           stiffness[material.id]     = moduli.bulk + 2. * moduli.shear;
         }
@@ -334,7 +331,7 @@ namespace Signoton
   Statics<dim>::report_binders()
   {
     const auto is_bound = [](const auto &material) {
-      return material.has_binder();
+      return material.has_binder;
     };
     if (results.n_accepted() == 0 ||
         std::none_of(model.materials.begin(), model.materials.end(), is_bound))

@@ -19,8 +19,8 @@ namespace Signoton
     impedance(const Rheology::Material &material, const bool loosened)
     {
       const Moduli moduli = loosened ?
-                              Rheology::loosened_moduli(material.scheme()) :
-                              material.elasticity();
+                              Rheology::loosened_moduli(material.scheme) :
+                              material.elasticity;
       return {std::sqrt(material.density *
                         (moduli.bulk + 4. / 3. * moduli.shear)),
               std::sqrt(material.density * moduli.shear)};

@@ -49,7 +49,7 @@ namespace Signoton
     void
     reinit() override;
     void
-    set_binder_ratio(const std::optional<double> &ratio) override;
+    set_scaling(const Rheology::Scaling &scaling) override;
     void
     set_time_step(const double time_step) override;
     void

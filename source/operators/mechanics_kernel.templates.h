@@ -15,14 +15,14 @@ namespace Signoton
     : space(space)
     , materials(materials)
   {
-    set_binder_ratio({});
+    set_scaling({});
     for (unsigned int m = 0; m < materials.size(); ++m)
       {
         if (materials[m].id >= material_of_id.size())
           material_of_id.resize(materials[m].id + 1,
                                 numbers::invalid_unsigned_int);
         material_of_id[materials[m].id] = m;
-        elasticity.push_back(materials[m].elasticity());
+        elasticity.push_back(materials[m].elasticity);
         longitudinal_speed.push_back(materials[m].longitudinal_speed());
         elastic_tangents.emplace_back();
         pack_tangent<Embedding, true>(
@@ -33,15 +33,12 @@ namespace Signoton
 
   template <typename Embedding, int degree>
   void
-  MechanicsKernel<Embedding, degree>::set_binder_ratio(
-    const std::optional<double> &ratio)
+  MechanicsKernel<Embedding, degree>::set_scaling(
+    const Rheology::Scaling &scaling)
   {
     laws.clear();
     for (const auto &material : materials)
-      laws.push_back(material.law(
-        ratio ?
-          std::optional<double>(std::max(*ratio, material.binder_ratio())) :
-          ratio));
+      laws.push_back(Rheology::make_law(material, scaling));
     set_time_step(time_step);
   }
 
@@ -366,7 +363,7 @@ namespace Signoton
   {
     return !shock_viscosity &&
            std::all_of(materials.begin(), materials.end(), [](const auto &m) {
-             return m.is_elastic();
+             return m.is_elastic;
            });
   }
 
@@ -375,7 +372,7 @@ namespace Signoton
   MechanicsKernel<Embedding, degree>::has_potential() const
   {
     return std::all_of(materials.begin(), materials.end(), [](const auto &m) {
-      return m.has_potential();
+      return m.has_potential;
     });
   }
 

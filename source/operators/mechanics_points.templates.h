@@ -183,12 +183,12 @@ namespace Signoton
   {
     std::vector<Moduli> binders;
     for (const auto &material : materials)
-      binders.push_back(material.binder());
+      binders.push_back(material.binder);
     AlignedVector<Tensor2<Number>> stress(data.n_cell_batches() * n_points);
     visit_points(displacement, [&](const PointResponse &point) {
       const unsigned int m      = material_of_batch[point.batch];
       Tensor2<Number>    strain = point.response.contact_strain;
-      if (materials[m].has_potential()) // else the hinge stands before both
+      if (materials[m].has_potential) // else the hinge stands before both
         strain += point.response.plastic_strain;
       stress[point.batch * n_points + point.q] = binders[m].stress(strain);
     });

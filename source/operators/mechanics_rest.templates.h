@@ -46,11 +46,11 @@ namespace Signoton
     std::vector<Moduli> moduli(elasticity);
     for (unsigned int m = 0; m < materials.size(); ++m)
       if (auto *general = std::get_if<Rheology::General>(&laws[m]);
-          general != nullptr && materials[m].is_viscous())
+          general != nullptr && materials[m].is_viscous)
         {
           relaxed[m]        = true;
-          moduli[m]         = Rheology::rest_moduli(materials[m].scheme());
-          const double time = Rheology::relaxation_time(materials[m].scheme());
+          moduli[m]         = Rheology::rest_moduli(materials[m].scheme);
+          const double time = Rheology::relaxation_time(materials[m].scheme);
           general->set_time_step(1e10 * (time > 0. ? time : 1.));
         }
     Cell       cell(data);

@@ -22,7 +22,7 @@ namespace Signoton
   inline double
   loosened_speed(const Rheology::Material &material)
   {
-    const Moduli left = Rheology::loosened_moduli(material.scheme());
+    const Moduli left = Rheology::loosened_moduli(material.scheme);
     return std::sqrt((left.bulk + 4. / 3. * left.shear) / material.density);
   }
 
@@ -57,7 +57,7 @@ namespace Signoton
            longitudinal_speed[m],
            std::sqrt(elasticity[m].shear / materials[m].density),
            loosened_speed(materials[m]),
-           materials[m].has_cone(),
+           materials[m].has_cone,
            stiffens ? 1. : -1.});
       }
   }

@@ -459,10 +459,13 @@ namespace Signoton::Rheology
   } // namespace
 
   Law
-  conditional_form(const Scheme &scheme, const Moduli &binder)
+  conditional_form(const Scheme &scheme)
   {
     const Moduli &spring = find(scheme, Kind::spring)->moduli;
-    const auto   &cylinder =
+    const Scheme *group  = find(scheme, Kind::parallel);
+    const Moduli  binder =
+      group != nullptr ? only(*group, Kind::spring)->moduli : Moduli{0., 0.};
+    const auto &cylinder =
       std::get<VonMisesCylinder<false>>(find(scheme, Kind::hinge)->set[0]);
     const auto &cone = find(scheme, Kind::contact)->set[0];
     if (const auto *round = std::get_if<MisesSchleicherCone>(&cone))

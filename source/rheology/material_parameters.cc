@@ -1,7 +1,7 @@
 #include <signoton/base/number.h>
 #include <signoton/base/quoting.h>
 #include <signoton/rheology/library.h>
-#include <signoton/rheology/material.h>
+#include <signoton/rheology/material_parameters.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -33,7 +33,7 @@ namespace Signoton::Rheology
   } // namespace
 
   void
-  Material::add_parameters(ParameterHandler &handler)
+  MaterialParameters::add_parameters(ParameterHandler &handler)
   {
     const Patterns::Double non_negative(0.);
     handler.add_parameter("Material id",
@@ -177,7 +177,7 @@ namespace Signoton::Rheology
   }
 
   std::vector<std::string>
-  Material::required_keys() const
+  MaterialParameters::required_keys() const
   {
     std::vector<std::string> keys = {"Rheology"};
     if (uses_set())
@@ -213,7 +213,7 @@ namespace Signoton::Rheology
   }
 
   std::vector<std::string>
-  Material::optional_keys() const
+  MaterialParameters::optional_keys() const
   {
     std::vector<std::string> keys = {"Material id", "Density"};
     if (uses("spring"))
@@ -250,10 +250,23 @@ namespace Signoton::Rheology
   }
 
   void
-  Material::check(const SceneFile &file)
+  MaterialParameters::refuse(const SceneFile   &file,
+                             const std::string &key,
+                             const std::string &expected,
+                             const std::string &hint) const
   {
     const SceneFile::Path path = {"Materials", name};
-    where                      = file.where(path, "Rheology");
+    throw UserError(file.where(path, key),
+                    file.has(path, key) ? "'" + file.value(path, key) + "'" :
+                                          "no value",
+                    expected,
+                    hint);
+  }
+
+  void
+  MaterialParameters::find_rheology(const SceneFile &file)
+  {
+    where = file.where({"Materials", name}, "Rheology");
     for (const std::string &key : file.keys({"Schemes"}))
       {
         if (ready_scheme(key) != nullptr || !is_scheme_name(key))
@@ -270,58 +283,60 @@ namespace Signoton::Rheology
       parse_scheme(text, file.where({"Schemes"}, key), definitions);
     const bool is_written = rheology.find('(') != std::string::npos ||
                             definitions.count(unquoted(rheology)) > 0;
-    if (!is_written && ready_scheme(rheology) == nullptr)
-      {
-        std::vector<std::string> names;
-        for (const auto &scheme : ready_schemes())
-          names.push_back(scheme.name);
-        for (const auto &definition : definitions)
-          names.push_back(definition.first);
-        const std::string nearest = nearest_name(rheology, names);
-        throw UserError(where,
-                        "'" + rheology + "'",
-                        "a scheme as text, or one of: " + join(names, ", "),
-                        nearest.empty() ?
-                          "for instance 'set Rheology = elastic granular'" :
-                          "did you mean '" + nearest + "'?");
-      }
-    const auto required = required_keys();
-    const auto optional = optional_keys();
-    const auto given    = [&](const std::string &key) {
-      return file.has(path, key);
-    };
-    const auto refuse = [&](const std::string &key,
-                            const std::string &expected,
-                            const std::string &hint) {
-      throw UserError(file.where(path, key),
-                      given(key) ? "'" + file.value(path, key) + "'" :
-                                   "no value",
-                      expected,
-                      hint);
-    };
+    if (is_written || ready_scheme(rheology) != nullptr)
+      return;
+    std::vector<std::string> names;
+    for (const auto &scheme : ready_schemes())
+      names.push_back(scheme.name);
+    for (const auto &definition : definitions)
+      names.push_back(definition.first);
+    const std::string nearest = nearest_name(rheology, names);
+    throw UserError(where,
+                    "'" + rheology + "'",
+                    "a scheme as text, or one of: " + join(names, ", "),
+                    nearest.empty() ?
+                      "for instance 'set Rheology = elastic granular'" :
+                      "did you mean '" + nearest + "'?");
+  }
 
+  void
+  MaterialParameters::check_keys(const SceneFile &file) const
+  {
+    const SceneFile::Path path = {"Materials", name};
+    const auto required = required_keys(), optional = optional_keys();
     for (const std::string &key : required)
-      if (!given(key))
-        refuse(key,
+      if (!file.has(path, key))
+        refuse(file,
+               key,
                "a value, since Rheology is '" + rheology + "'" +
                  (uses_set() ? " and Admissible set '" + admissible_set + "'" :
                                ""),
                "add 'set " + key + " = ...'");
     for (const std::string &key : file.keys(path))
       if (!contains(required, key) && !contains(optional, key))
-        refuse(key,
+        refuse(file,
+               key,
                "no such key with Rheology '" + rheology + "'" +
                  (uses_set() ? ", Admissible set '" + admissible_set +
                                  "' and Binder '" + binder_kind + "'" :
                                ""),
                "remove the key, it would have no effect, or choose the "
                "rheology that it belongs to");
+  }
 
+  void
+  MaterialParameters::check_numbers(const SceneFile &file) const
+  {
+    const SceneFile::Path path  = {"Materials", name};
+    const auto            given = [&](const std::string &key) {
+      return file.has(path, key);
+    };
     for (const std::string &key : file.keys(path))
       if (const double size =
             key == "Material id" ? 0. : size_of(file.value(path, key));
           size > 0. && !(size >= 1. / largest_number && size <= largest_number))
-        refuse(key,
+        refuse(file,
+               key,
                "zero, or a number between 1e-30 and 1e30",
                "check the unit; scale all stresses if they are that far from "
                "one");
@@ -329,20 +344,34 @@ namespace Signoton::Rheology
     const bool by_young  = given("Young modulus") || given("Poisson ratio");
     const bool by_moduli = given("Bulk modulus") || given("Shear modulus");
     if (by_young && by_moduli)
-      refuse("Young modulus",
+      refuse(file,
+             "Young modulus",
              "either bulk and shear modulus or Young's modulus and Poisson's "
              "ratio",
              "remove one pair");
-    if (by_young && !(young_modulus > 0.))
-      refuse("Young modulus", "a positive number in Pa", "set it");
-    if (uses("spring") && !by_young && !(bulk_modulus > 0.))
-      refuse("Bulk modulus", "a positive number in Pa", "set it");
-    if (uses("spring") && !by_young && !(shear_modulus > 0.))
-      refuse("Shear modulus", "a positive number in Pa", "set it");
+    const auto require_positive = [&](const std::string &key,
+                                      const double       value) {
+      if (!(value > 0.))
+        refuse(file, key, "a positive number in Pa", "set it");
+    };
+    if (by_young)
+      require_positive("Young modulus", young_modulus);
+    else if (uses("spring"))
+      {
+        require_positive("Bulk modulus", bulk_modulus);
+        require_positive("Shear modulus", shear_modulus);
+      }
+  }
 
-    const auto allow_sets = [&](const std::vector<std::string> &sets) {
+  void
+  MaterialParameters::check_set(const SceneFile &file) const
+  {
+    const SceneFile::Path path     = {"Materials", name};
+    const auto            required = required_keys();
+    const auto            allow    = [&](const std::vector<std::string> &sets) {
       if (!contains(sets, admissible_set))
-        refuse("Admissible set",
+        refuse(file,
+               "Admissible set",
                "one of " + join(sets, ", ") + " for Rheology '" + rheology +
                  "'",
                "a rigid contact needs a cone, a plastic hinge a yield set");
@@ -351,21 +380,22 @@ namespace Signoton::Rheology
                             uses("contact with gap"),
                on_hinge = uses("hinge on set") || uses("cohesive hinge");
     if (on_contact && on_hinge)
-      allow_sets({"mises schleicher", "coulomb mohr"});
+      allow({"mises schleicher", "coulomb mohr"});
     else if (on_contact)
-      allow_sets({"mises schleicher", "coulomb mohr", "no tension"});
+      allow({"mises schleicher", "coulomb mohr", "no tension"});
     else if (on_hinge)
-      allow_sets({"mises schleicher", "coulomb mohr", "von mises", "tresca"});
+      allow({"mises schleicher", "coulomb mohr", "von mises", "tresca"});
     if (uses("bound cone and hinge"))
       {
-        if (has_potential())
-          allow_sets({"mises schleicher"});
+        if (plastic_flow == "conditional")
+          allow({"mises schleicher", "coulomb mohr", "no tension"});
         else
-          allow_sets({"mises schleicher", "coulomb mohr", "no tension"});
+          allow({"mises schleicher"});
       }
 
     if (contains(required, "Friction angle") && friction_angle < 1.6)
-      refuse("Friction angle",
+      refuse(file,
+             "Friction angle",
              "an angle in degrees, between 1.6 and 89.9",
              friction_angle > 0. ?
                "if the value is in radians, write " +
@@ -374,7 +404,10 @@ namespace Signoton::Rheology
                "for zero friction take Rheology = elastic plastic with "
                "Admissible set = tresca");
     if (contains(required, "Friction parameter") && !(friction_parameter > 0.))
-      refuse("Friction parameter", "a positive number", "for instance 0.5");
+      refuse(file,
+             "Friction parameter",
+             "a positive number",
+             "for instance 0.5");
     for (const char *key : {"Shear strength",
                             "Shear viscosity",
                             "Second bulk modulus",
@@ -383,7 +416,6 @@ namespace Signoton::Rheology
                             "Gap"})
       if (contains(required, key) &&
           !(Utilities::string_to_double(file.value(path, key)) > 0.))
-        refuse(key, "a positive number", "set it");
-    scheme(); // complains about errors in it
+        refuse(file, key, "a positive number", "set it");
   }
 } // namespace Signoton::Rheology

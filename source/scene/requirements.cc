@@ -40,15 +40,15 @@ namespace Signoton
   {
     const auto &materials = model.materials;
     const auto  inelastic =
-      names_of(materials, [](const auto &m) { return !m.is_elastic(); });
+      names_of(materials, [](const auto &m) { return !m.is_elastic; });
     const auto contact =
-      names_of(materials, [](const auto &m) { return m.has_cone(); });
+      names_of(materials, [](const auto &m) { return m.has_cone; });
     const auto remembering =
-      names_of(materials, [](const auto &m) { return !m.is_reversible(); });
+      names_of(materials, [](const auto &m) { return !m.is_reversible; });
     const auto viscous =
-      names_of(materials, [](const auto &m) { return m.is_viscous(); });
+      names_of(materials, [](const auto &m) { return m.is_viscous; });
     const auto binder =
-      names_of(materials, [](const auto &m) { return m.has_binder(); });
+      names_of(materials, [](const auto &m) { return m.has_binder; });
     const auto heavy =
       names_of(materials, [](const auto &m) { return m.density > 0.; });
     const bool is_explicit =
@@ -63,7 +63,7 @@ namespace Signoton
     const bool tangent = (!inelastic.empty() || shock) && !is_explicit;
     const bool symmetric =
       std::all_of(materials.begin(), materials.end(), [](const auto &m) {
-        return m.has_potential();
+        return m.has_potential;
       });
     const bool gravity  = model.gravity && !heavy.empty();
     const bool adaptive = model.is_dynamic ? model.wave_refinement.is_on() :

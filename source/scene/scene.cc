@@ -48,10 +48,10 @@ namespace Signoton
       std::vector<std::string> names;
       for (const auto &material : model.materials)
         {
-          const Moduli moduli = material.elasticity();
-          const bool   yields = !model.is_dynamic &&
-                              Rheology::contains(material.scheme(),
-                                                 Rheology::Scheme::Kind::hinge);
+          const Moduli moduli = material.elasticity;
+          const bool   yields =
+            !model.is_dynamic &&
+            Rheology::contains(material.scheme, Rheology::Scheme::Kind::hinge);
           if (yields || moduli.bulk > incompressible * moduli.shear)
             names.push_back("'" + material.name + "', which " +
                             (yields ? "yields" : "is nearly incompressible"));
@@ -74,7 +74,7 @@ namespace Signoton
       model.time_integration.scheme = "implicit";
     drop_unused();
     for (const auto &name : file.subsections({"Materials"}))
-      model.materials.emplace_back(name);
+      materials.emplace_back(name);
     for (const auto &name : file.subsections({"Boundaries"}))
       model.conditions.emplace_back(name);
     for (const auto &name : file.subsections({"Point forces"}))
@@ -163,7 +163,7 @@ namespace Signoton
     model.geometry.add_parameters(prm);
 
     prm.enter_subsection("Materials");
-    for (auto &material : model.materials)
+    for (auto &material : materials)
       {
         prm.enter_subsection(material.name);
         material.add_parameters(prm);
@@ -284,16 +284,17 @@ namespace Signoton
                                 constants,
                                 where);
     };
-    if (model.materials.empty())
+    if (materials.empty())
       throw UserError(file.where({"Materials"}),
                       "no material",
                       "a subsection with the name of a material",
                       "'subsection Materials', 'subsection sand', 'set "
                       "Rheology = elastic', ...");
-    for (auto &material : model.materials)
+    for (auto &material : materials)
       {
-        material.check(file);
-        material.require_stress_from_strain();
+        model.materials.push_back(material.make(file));
+        Rheology::require_stress_from_strain(model.materials.back().scheme,
+                                             model.materials.back().where);
       }
     if (!gravity_text.empty())
       model.gravity =
@@ -358,11 +359,10 @@ namespace Signoton
                           "no density",
                         "a positive number in kg/m^3: waves need inertia",
                         "set Density = 1800, for instance");
-    const bool linear =
-      std::all_of(model.materials.begin(),
-                  model.materials.end(),
-                  [](const auto &m) { return m.is_elastic(); });
-    auto &viscosity = model.time_integration.shock_viscosity;
+    const bool linear    = std::all_of(model.materials.begin(),
+                                    model.materials.end(),
+                                    [](const auto &m) { return m.is_elastic; });
+    auto      &viscosity = model.time_integration.shock_viscosity;
     if (linear && !file.has({"Time integration"}, "Linear shock viscosity"))
       viscosity.linear = 0.;
     if (linear && !file.has({"Time integration"}, "Quadratic shock viscosity"))
@@ -392,8 +392,8 @@ namespace Signoton
     if (!model.initial_strain && !model.initial_stress)
       return;
     for (const auto &material : model.materials)
-      if (const Moduli left = Rheology::rest_moduli(material.scheme());
-          material.is_viscous() && !(left.bulk > 0. && left.shear > 0.))
+      if (const Moduli left = Rheology::rest_moduli(material.scheme);
+          material.is_viscous && !(left.bulk > 0. && left.shear > 0.))
         throw UserError(file.where(path),
                         "an initial strain or stress, and a damper in series "
                         "in the material '" +
@@ -434,7 +434,7 @@ namespace Signoton
       return;
     check_supports();
     for (const auto &material : model.materials)
-      if (material.may_lose_stiffness() && !(model.newton.regularization > 0.))
+      if (material.may_lose_stiffness && !(model.newton.regularization > 0.))
         model.newton.regularization = 1e-6;
   }
 

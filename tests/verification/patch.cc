@@ -121,7 +121,7 @@ namespace
                                                 trial,
                                                 response);
       },
-      material.law());
+      Rheology::make_law(material));
     return response;
   }
 

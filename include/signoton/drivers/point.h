@@ -5,6 +5,7 @@
 #include <signoton/base/time_function.h>
 #include <signoton/drivers/output_directory.h>
 #include <signoton/drivers/point_law.h>
+#include <signoton/rheology/material_parameters.h>
 
 #include <array>
 #include <iosfwd>
@@ -97,25 +98,26 @@ namespace Signoton
     /** Of the table, in the order of record(). */
     static const std::vector<std::string> columns;
 
-    MPI_Comm                          communicator;
-    SceneFile                         file;
-    ParameterHandler                  handler;
-    std::string                       title, kind = "oedometer";
-    std::string                       strain_text, stress_text, constants_text;
-    double                            confining_pressure = 0.;
-    std::array<Component, 6>          components;
-    double                            start_time = 0., end_time = 1.;
-    double                            step_size = 0., tolerance = 1e-5;
-    std::string                       turning_text;
-    TimesToMeet                       times_to_meet;
-    bool                              by_strain = true; ///< no stress is given
-    std::string                       horizontal, vertical;
-    std::optional<Rheology::Material> material;
-    std::unique_ptr<PointLaw>         law;
-    Vector6                           origin{}; ///< strain that counts as zero
-    double                            strain_scale = 0., stress_scale = 0.;
-    std::vector<CSVTable::Row>        rows; ///< of the table
-    std::unique_ptr<OutputDirectory>  results;
+    MPI_Comm                 communicator;
+    SceneFile                file;
+    ParameterHandler         handler;
+    std::string              title, kind = "oedometer";
+    std::string              strain_text, stress_text, constants_text;
+    double                   confining_pressure = 0.;
+    std::array<Component, 6> components;
+    double                   start_time = 0., end_time = 1.;
+    double                   step_size = 0., tolerance = 1e-5;
+    std::string              turning_text;
+    TimesToMeet              times_to_meet;
+    bool                     by_strain = true; ///< no stress is given
+    std::string              horizontal, vertical;
+    std::optional<Rheology::MaterialParameters> constants;
+    std::optional<Rheology::Material>           material;
+    std::unique_ptr<PointLaw>                   law;
+    Vector6                          origin{}; ///< strain that counts as zero
+    double                           strain_scale = 0., stress_scale = 0.;
+    std::vector<CSVTable::Row>       rows; ///< of the table
+    std::unique_ptr<OutputDirectory> results;
   };
 } // namespace Signoton
 

@@ -4,6 +4,8 @@
 #include <signoton/rheology/material.h>
 #include <signoton/rheology/network.h>
 
+#include <optional>
+
 namespace Signoton
 {
   /**

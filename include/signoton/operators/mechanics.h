@@ -98,10 +98,9 @@ namespace Signoton
     virtual void
     reinit() = 0;
 
-    /** Replace the ratio of all proportional binders by at least
-     *  @p ratio; without argument, go back to the scene's. */
+    /** Take laws that are other than the scene says, or go back to those. */
     virtual void
-    set_binder_ratio(const std::optional<double> &ratio = {}) = 0;
+    set_scaling(const Rheology::Scaling &scaling) = 0;
 
     /** The time step in s, for laws with viscosity. */
     virtual void

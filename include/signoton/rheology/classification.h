@@ -84,7 +84,7 @@ namespace Signoton::Rheology
    *  cylinder, with a binder in parallel, whose hinge sees the conditional
    *  stress: see ConditionalPlasticity. */
   Law
-  conditional_form(const Scheme &scheme, const Moduli &binder);
+  conditional_form(const Scheme &scheme);
 
   /** Properties in words, for --explain. */
   std::string

@@ -2,6 +2,7 @@
 #define signoton_scene_scene_h
 
 #include <signoton/drivers/model.h>
+#include <signoton/rheology/material_parameters.h>
 
 #include <iosfwd>
 
@@ -91,15 +92,16 @@ namespace Signoton
     void
     check_probes();
 
-    ParameterHandler handler;
-    int              dimension      = dim;
-    std::string      embedding      = dim == 2 ? "plane strain" : "solid";
-    unsigned int     degree         = 1;
-    std::string      points_outside = "nearest";
-    std::string      constants_text = "";
-    std::string      gravity_text   = "";
-    std::string      reference_text = "";
-    std::string      reference_velocity_text = "";
+    ParameterHandler                          handler;
+    std::vector<Rheology::MaterialParameters> materials;
+    int                                       dimension = dim;
+    std::string  embedding               = dim == 2 ? "plane strain" : "solid";
+    unsigned int degree                  = 1;
+    std::string  points_outside          = "nearest";
+    std::string  constants_text          = "";
+    std::string  gravity_text            = "";
+    std::string  reference_text          = "";
+    std::string  reference_velocity_text = "";
     std::string initial_strain_text, initial_stress_text, initial_velocity_text;
     Constants   constants;
   };
