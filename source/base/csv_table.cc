@@ -1,6 +1,7 @@
 #include <signoton/base/csv_table.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -26,7 +27,7 @@ namespace Signoton
   }
 
   std::string
-  CSVTable::line(const Row &row)
+  CSVTable::line(const Numbers &row)
   {
     std::ostringstream text;
     text.precision(12);
@@ -121,9 +122,9 @@ namespace Signoton
   }
 
   std::string
-  CSVTable::append(const Names            &names,
-                   const std::vector<Row> &rows,
-                   const bool              ends_block)
+  CSVTable::append(const Names                &names,
+                   const std::vector<Numbers> &rows,
+                   const bool                  ends_block)
   {
     std::string text, change;
     const bool  begins = !has_begun;
@@ -138,7 +139,7 @@ namespace Signoton
             text += '\n';
           }
       }
-    for (const Row &row : rows)
+    for (const Numbers &row : rows)
       {
         text += line(row);
         text.insert(text.size() - 1, padding);
@@ -154,5 +155,39 @@ namespace Signoton
     old_rows.clear();
     old_rows.shrink_to_fit();
     return change;
+  }
+
+  std::string
+  CSVTable::append(const Row &row)
+  {
+    Names   names;
+    Numbers numbers;
+    for (const auto &[name, number] : row)
+      {
+        names.push_back(name);
+        numbers.push_back(number);
+      }
+    return append(names, {numbers});
+  }
+
+  std::vector<CSVTable::Row>
+  CSVTable::read(const std::string &file_name)
+  {
+    std::ifstream    file(file_name);
+    std::string      text;
+    std::vector<Row> rows;
+    std::getline(file, text);
+    const Fields names = split(text);
+    while (std::getline(file, text))
+      {
+        const Fields fields = split(text);
+        Row          row;
+        for (std::size_t i = 0; i < std::min(fields.size(), names.size()); ++i)
+          if (!fields[i].empty())
+            row.emplace_back(names[i], std::strtod(fields[i].c_str(), nullptr));
+        if (!row.empty())
+          rows.push_back(row);
+      }
+    return rows;
   }
 } // namespace Signoton

@@ -246,46 +246,45 @@ namespace Signoton
 
   template <int dim>
   void
-  Dynamics<dim>::add_statistics(const VectorType &u, const VectorType &v)
+  Dynamics<dim>::add_statistics(const State &state)
   {
-    Line line = {{"step", n_steps},
-                 {"time", time},
-                 {"step size", time_step},
-                 {"cells", model.space->mesh.n_global_active_cells()},
-                 {"unknowns", model.space->dof_handler.n_dofs()},
-                 {"kinetic energy", receipt.kinetic},
-                 {"stored energy", receipt.stored},
-                 {"plastic dissipation", receipt.plastic},
-                 {"viscous dissipation", receipt.viscous},
-                 {"shock dissipation", receipt.shock},
-                 {"absorbed energy", receipt.absorbed},
-                 {"lost by transfer", receipt.transfer},
-                 {"lost by time stepping", receipt.time_stepping},
-                 {"external work", receipt.external_work},
-                 {"initial energy", receipt.initial},
-                 {"energy gap", receipt.gap()},
-                 {"unknowns by steps", unknown_steps}};
+    CSVTable::Row row = {{"step", n_steps},
+                         {"time", time},
+                         {"step size", time_step},
+                         {"cells", model.space->mesh.n_global_active_cells()},
+                         {"unknowns", model.space->dof_handler.n_dofs()},
+                         {"kinetic energy", receipt.kinetic},
+                         {"stored energy", receipt.stored},
+                         {"plastic dissipation", receipt.plastic},
+                         {"viscous dissipation", receipt.viscous},
+                         {"shock dissipation", receipt.shock},
+                         {"absorbed energy", receipt.absorbed},
+                         {"lost by transfer", receipt.transfer},
+                         {"lost by time stepping", receipt.time_stepping},
+                         {"external work", receipt.external_work},
+                         {"initial energy", receipt.initial},
+                         {"energy gap", receipt.gap()},
+                         {"unknowns by steps", unknown_steps}};
     if (std::any_of(model.materials.begin(),
                     model.materials.end(),
                     [](const auto &m) { return m.has_cone; }))
-      line.emplace_back("volume of voids", receipt.voids);
+      row.emplace_back("volume of voids", receipt.voids);
     const char *axes[] = {"momentum x", "momentum y", "momentum z"};
     const auto  p      = momentum();
     for (unsigned int d = 0; d < dim; ++d)
-      line.emplace_back(axes[d], p[d]);
-    add_columns(line);
+      row.emplace_back(axes[d], p[d]);
+    add_columns(row);
     const auto reactions = reaction_columns(model, support_forces());
-    line.insert(line.end(), reactions.begin(), reactions.end());
+    row.insert(row.end(), reactions.begin(), reactions.end());
     model.set_time(time); // of references
-    output.add_common(line,
-                      u,
-                      &v,
+    output.add_common(row,
+                      state,
                       {"constitutive update",
                        "time integration",
                        "external force",
                        "mesh and transfer",
                        "output"});
-    output.append(line);
+    output.append(row);
     ++n_reported;
   }
 
@@ -300,21 +299,24 @@ namespace Signoton
     model.space->mesh_constraints.distribute(u);
     model.space->mesh_constraints.distribute(v);
     model.set_time(time); // of references
+    const State state{time,
+                      n_steps,
+                      {{"displacement", "m", &u}, {"velocity", "m/s", &v}}};
     if (is_reported())
-      add_statistics(u, v);
+      add_statistics(state);
     if (is_snapshot_due())
       {
         n_snapshots = part_of(model.time_integration.snapshots);
-        output.write_fields(u, &v, time, n_steps);
+        output.write_fields(state);
       }
     if (is_sample_due())
       {
-        n_samples = part_of(model.output.line_samples);
-        output.write_lines(u, &v, time);
+        n_samples = part_of(model.output.transect_samples);
+        output.write_transects(state);
       }
-    if (is_line_due())
+    if (is_screen_line_due())
       {
-        n_lines = part_of(20);
+        n_screen_lines = part_of(20);
         output.screen << std::setw(8) << n_steps << std::setw(12)
                       << short_number(time, 5) << std::setw(10)
                       << model.space->dof_handler.n_dofs() << std::setw(11)
@@ -392,9 +394,9 @@ namespace Signoton
     n_steps    = checkpoint.number("accepted steps");
     n_reported = checkpoint.number("lines of statistics");
     // the end may be another one now
-    n_snapshots = part_of(model.time_integration.snapshots);
-    n_samples   = part_of(model.output.line_samples);
-    n_lines     = part_of(20);
+    n_snapshots    = part_of(model.time_integration.snapshots);
+    n_samples      = part_of(model.output.transect_samples);
+    n_screen_lines = part_of(20);
     setup();
     checkpoint.load_fields(
       need_history_space(),

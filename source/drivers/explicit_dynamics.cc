@@ -62,9 +62,9 @@ namespace Signoton
 
   template <int dim>
   void
-  ExplicitDynamics<dim>::add_columns(Line &line) const
+  ExplicitDynamics<dim>::add_columns(CSVTable::Row &row) const
   {
-    line.emplace_back("share of quiet cells", quiet_share);
+    row.emplace_back("share of quiet cells", quiet_share);
   }
 
   template <int dim>

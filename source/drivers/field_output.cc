@@ -2,8 +2,6 @@
 #include <signoton/drivers/field_output.h>
 #include <signoton/drivers/nodal_fields.h>
 
-#include <deal.II/numerics/data_out.h>
-
 #include <optional>
 #include <sstream>
 
@@ -85,38 +83,31 @@ namespace Signoton
 
   template <int dim>
   void
-  FieldOutput<dim>::write(const VectorType  &displacement,
-                          const VectorType  *velocity,
-                          const double       time,
-                          const unsigned int step)
+  FieldOutput<dim>::write(const State &state)
   {
     DataOut<dim> output;
     output.attach_dof_handler(model.space->dof_handler);
-    VectorType nodal[2]; // in use until the end
-    const auto add_nodal = [&](const VectorType  &field,
-                               const std::string &name,
-                               VectorType        &ghosted) {
-      ghosted = model.space->make_relevant_vector();
-      ghosted.copy_locally_owned_data_from(field);
-      ghosted.update_ghost_values();
-      output.add_data_vector(
-        ghosted,
-        std::vector<std::string>(dim, name),
-        DataOut<dim>::type_dof_data,
-        std::vector<DataComponentInterpretation::DataComponentInterpretation>(
-          dim, DataComponentInterpretation::component_is_part_of_vector));
-    };
-    add_nodal(displacement, "displacement", nodal[0]);
-    if (velocity != nullptr)
-      add_nodal(*velocity, "velocity", nodal[1]);
-
-    const auto cell_data = cell_fields(displacement);
+    std::vector<VectorType> nodal; // in use until the end
+    nodal.reserve(state.fields.size());
+    for (const State::Field &field : state.fields)
+      {
+        nodal.push_back(model.space->make_relevant_vector());
+        nodal.back().copy_locally_owned_data_from(*field.values);
+        nodal.back().update_ghost_values();
+        output.add_data_vector(
+          nodal.back(),
+          std::vector<std::string>(dim, field.name),
+          DataOut<dim>::type_dof_data,
+          std::vector<DataComponentInterpretation::DataComponentInterpretation>(
+            dim, DataComponentInterpretation::component_is_part_of_vector));
+      }
+    const auto cell_data = cell_fields(state.displacement());
     for (const auto &[name, values] : cell_data)
       output.add_data_vector(values, name, DataOut<dim>::type_cell_data);
     std::optional<NodalFields<dim>> nodes; // in use until the end
     if (model.output.nodal_stress)
       {
-        nodes.emplace(model, displacement);
+        nodes.emplace(model, state.displacement());
         for (unsigned int i = 0; i < nodes->fields.size(); ++i)
           output.add_data_vector(nodes->dof_handler,
                                  nodes->fields[i],
@@ -125,46 +116,51 @@ namespace Signoton
     output.build_patches(model.space->mapping,
                          model.space->degree,
                          DataOut<dim>::curved_boundary);
-
-    const std::string  base = "fields-" + Utilities::int_to_string(step, 4);
-    const unsigned int rank =
-      Utilities::MPI::this_mpi_process(model.communicator);
-    const unsigned int n_ranks =
-      Utilities::MPI::n_mpi_processes(model.communicator);
-    const auto piece = [&](const unsigned int r) {
-      return n_ranks == 1 ?
-               base + ".vtu" :
-               base + "." + Utilities::int_to_string(r, 4) + ".vtu";
-    };
     DataOutBase::VtkFlags flags;
-    flags.time  = time;
-    flags.cycle = step;
+    flags.time  = state.time;
+    flags.cycle = state.step;
     // the best compression takes longer than some steps
     flags.compression_level = DataOutBase::VtkFlags::best_speed;
     output.set_flags(flags);
-    // Through memory: deal.II's writers answer a full disk with an exception on
-    // the rank that meets it, while the others would wait.
-    std::ostringstream text, record, collection;
-    output.write_vtu(text);
-    std::vector<std::string> pieces;
-    for (unsigned int r = 0; r < n_ranks; ++r)
-      pieces.push_back(piece(r));
-    directory.enter(pieces);
-    write_file(model.communicator,
-               directory.path + "/" + piece(rank),
-               text.str(),
-               true);
 
-    list.emplace_back(time, n_ranks == 1 ? piece(0) : base + ".pvtu");
-    output.write_pvtu_record(record, pieces);
-    if (n_ranks > 1)
-      write_file(model.communicator,
-                 directory.path_of(base + ".pvtu"),
-                 record.str());
+    list.emplace_back(state.time, write_pieces(output, state.step));
+    std::ostringstream collection;
     DataOutBase::write_pvd_record(collection, list);
     write_file(model.communicator,
                directory.path_of("fields.pvd"),
                collection.str());
+  }
+
+  template <int dim>
+  std::string
+  FieldOutput<dim>::write_pieces(const DataOut<dim> &output,
+                                 const unsigned int  step)
+  {
+    const std::string  base = "fields-" + Utilities::int_to_string(step, 4);
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(model.communicator);
+    std::vector<std::string> pieces;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      pieces.push_back(
+        base + (n_ranks == 1 ? "" : "." + Utilities::int_to_string(r, 4)) +
+        ".vtu");
+    // Through memory: deal.II's writers answer a full disk with an exception on
+    // the rank that meets it, while the others would wait.
+    std::ostringstream text, record;
+    output.write_vtu(text);
+    directory.enter(pieces);
+    write_file(model.communicator,
+               directory.path + "/" +
+                 pieces[Utilities::MPI::this_mpi_process(model.communicator)],
+               text.str(),
+               true);
+    if (n_ranks == 1)
+      return pieces[0];
+    output.write_pvtu_record(record, pieces);
+    write_file(model.communicator,
+               directory.path_of(base + ".pvtu"),
+               record.str());
+    return base + ".pvtu";
   }
 
   template class FieldOutput<2>;

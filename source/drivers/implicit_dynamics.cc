@@ -74,12 +74,12 @@ namespace Signoton
 
   template <int dim>
   void
-  ImplicitDynamics<dim>::add_columns(Line &line) const
+  ImplicitDynamics<dim>::add_columns(CSVTable::Row &row) const
   {
-    line.emplace_back("local error", error);
-    line.emplace_back("Newton iterations", newton_iterations);
-    line.emplace_back("linear iterations", linear_iterations);
-    line.emplace_back("rejected steps", rejected);
+    row.emplace_back("local error", error);
+    row.emplace_back("Newton iterations", newton_iterations);
+    row.emplace_back("linear iterations", linear_iterations);
+    row.emplace_back("rejected steps", rejected);
   }
 
   template <int dim>

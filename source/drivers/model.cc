@@ -62,13 +62,13 @@ namespace Signoton
         "displacement|velocity|stress|strain|contact strain|plastic strain|"
         "principal stress|pressure|shear intensity|energy density|region"));
     handler.add_parameter("Probe lines",
-                          line_text,
+                          transect_text,
                           "Lines with files of their own, and pictures over "
                           "place and time: 'from : to : number of points; "
                           "...', for instance '0, 0 : 1, 0 : 200'.");
     if (is_dynamic)
       handler.add_parameter("Probe line samples",
-                            line_samples,
+                            transect_samples,
                             "How often lines are written, evenly over the "
                             "run. In statics it is every step.",
                             Patterns::Integer(1, 1000000));

@@ -33,7 +33,7 @@ namespace Signoton
       std::max(stress_scale, std::sqrt(dot(state.stress, state.stress)));
     const Tensor2<> strain = from_mandel(counted),
                     stress = from_mandel(state.stress);
-    CSVTable::Row row      = {state.time};
+    CSVTable::Numbers row  = {state.time};
     for (const Tensor2<> &tensor : {strain, stress})
       for (unsigned int c = 0; c < 6; ++c)
         row.push_back(tensor.access_raw_entry(c));

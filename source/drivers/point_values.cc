@@ -90,39 +90,38 @@ namespace Signoton
 
   template <int dim>
   auto
-  PointValues<dim>::evaluate(const VectorType &displacement,
-                             const VectorType *velocity,
-                             const bool        with_states) -> Values
+  PointValues<dim>::evaluate(const State &state, const bool with_states)
+    -> Values
   {
     update();
-    Values     result;
-    const auto nodal = [&](const VectorType            &field,
-                           std::vector<Tensor<1, dim>> &values) {
-      values.resize(n_points);
-      for (const Stencil &stencil : stencils)
-        for (unsigned int k = 0; k < stencil.dofs.size(); ++k)
-          values[stencil.point][space.fe.system_to_component_index(k).first] +=
-            stencil.share_of_point * stencil.shape[k] * field(stencil.dofs[k]);
-    };
-    nodal(displacement, result.displacement);
-    if (velocity != nullptr)
-      nodal(*velocity, result.velocity);
+    Values result;
+    for (const State::Field &field : state.fields)
+      {
+        std::vector<Tensor<1, dim>> values(n_points);
+        for (const Stencil &stencil : stencils)
+          for (unsigned int k = 0; k < stencil.dofs.size(); ++k)
+            values[stencil.point]
+                  [space.fe.system_to_component_index(k).first] +=
+              stencil.share_of_point * stencil.shape[k] *
+              (*field.values)(stencil.dofs[k]);
+        result.nodal.push_back(values);
+      }
     if (with_states)
       {
         std::vector<PointState> at_points;
-        mechanics.point_states(displacement, cells, at_points);
+        mechanics.point_states(state.displacement(), cells, at_points);
         add_states(at_points, result);
       }
 
     std::vector<double> sums, regions;
     const auto          exchange = [&](const auto &move) {
-      for (auto *field : {&result.displacement, &result.velocity})
-        for (auto &value : *field)
+      for (auto &field : result.nodal)
+        for (auto &value : field)
           for (unsigned int d = 0; d < dim; ++d)
             move(sums, value[d]);
-      for (auto &state : result.states)
+      for (auto &point : result.states)
         for (unsigned int c = 0; c < PointState::n_values; ++c)
-          move(c == PointState::region ? regions : sums, state.values[c]);
+          move(c == PointState::region ? regions : sums, point.values[c]);
     };
     exchange([](std::vector<double> &list, const double value) {
       list.push_back(value);

@@ -5,6 +5,7 @@
 
 #include <deal.II/fe/fe_values.h>
 
+#include <list>
 #include <numeric>
 #include <sstream>
 
@@ -16,9 +17,9 @@ namespace Signoton
     const std::array<std::string, 6> entries = {
       {"xx", "yy", "zz", "xy", "xz", "yz"}};
 
-    /** Lines have the stress in any case. */
+    /** Transects have the stress in any case. */
     std::vector<std::string>
-    of_lines(std::vector<std::string> wanted)
+    of_transects(std::vector<std::string> wanted)
     {
       if (std::find(wanted.begin(), wanted.end(), "stress") == wanted.end())
         wanted.emplace_back("stress");
@@ -35,7 +36,7 @@ namespace Signoton
     , directory(directory)
     , wanted(Utilities::split_string_list(model.output.probe_quantities, ','))
     , quantities(point_quantities(wanted, dim))
-    , line_quantities(point_quantities(of_lines(wanted), dim))
+    , transect_quantities(point_quantities(of_transects(wanted), dim))
     , mesh_changes(model.space->mesh.signals.any_change.connect(
         [this] { surfaces_are_current = false; }))
   {
@@ -43,10 +44,10 @@ namespace Signoton
       points = std::make_unique<PointValues<dim>>(*model.space,
                                                   *model.mechanics,
                                                   *model.probe_points);
-    for (unsigned int l = 0; l < model.probe_lines.size(); ++l)
+    for (unsigned int l = 0; l < model.transects.size(); ++l)
       {
-        lines.push_back(std::make_unique<PointValues<dim>>(
-          *model.space, *model.mechanics, *model.probe_lines[l].places));
+        transects.push_back(std::make_unique<PointValues<dim>>(
+          *model.space, *model.mechanics, *model.transects[l].places));
         tables.emplace_back(model.communicator,
                             directory.path + "/" + file(l, ".csv"));
       }
@@ -142,109 +143,95 @@ namespace Signoton
   }
 
   template <int dim>
-  auto
-  Probes<dim>::columns_of_surface(const std::string &name,
-                                  const Surface     &surface,
-                                  const VectorType  &displacement,
-                                  const VectorType  *velocity) -> Line
+  void
+  Probes<dim>::add_surface(CSVTable::Row     &row,
+                           const std::string &name,
+                           const Surface     &surface,
+                           const State       &state)
   {
-    std::array<double, 3 * dim + 1> sums{};
-    sums[3 * dim] = surface.area;
-    for (unsigned int i = 0; i < surface.dofs.size(); ++i)
-      {
-        const double w = surface.weight[i];
-        sums[surface.component[i]] += w * displacement(surface.dofs[i]);
-        if (velocity != nullptr)
-          sums[dim + surface.component[i]] += w * (*velocity)(surface.dofs[i]);
-      }
+    const unsigned int traction = dim * state.fields.size(),
+                       area     = traction + dim;
+    std::vector<double> sums(area + 1, 0.);
+    sums[area] = surface.area;
+    for (unsigned int f = 0; f < state.fields.size(); ++f)
+      for (unsigned int i = 0; i < surface.dofs.size(); ++i)
+        sums[dim * f + surface.component[i]] +=
+          surface.weight[i] * (*state.fields[f].values)(surface.dofs[i]);
     if (wants("stress"))
       {
-        std::vector<PointState> states;
-        model.mechanics->point_states(displacement, surface.cells, states);
-        for (std::size_t i = 0; i < states.size(); ++i)
+        std::vector<PointState> points;
+        model.mechanics->point_states(state.displacement(),
+                                      surface.cells,
+                                      points);
+        for (std::size_t i = 0; i < points.size(); ++i)
           {
             SymmetricTensor<2, 3> stress;
             for (unsigned int e = 0; e < 6; ++e)
               stress.access_raw_entry(e) =
-                states[i].values[PointState::stress + e];
+                points[i].values[PointState::stress + e];
             for (unsigned int a = 0; a < dim; ++a)
               for (unsigned int b = 0; b < dim; ++b)
-                sums[2 * dim + a] += stress[a][b] * surface.area_vectors[i][b];
+                sums[traction + a] += stress[a][b] * surface.area_vectors[i][b];
           }
       }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                        model.communicator,
-                        ArrayView<double>(sums.data(), sums.size()));
-    Line       line;
+    Utilities::MPI::sum(sums, model.communicator, sums);
     const auto add = [&](const std::string &quantity, const unsigned int from) {
       for (unsigned int d = 0; d < dim; ++d)
-        line.emplace_back(quantity + " " + axes[d] + " at " + name,
-                          sums[from + d] / sums[3 * dim]);
+        row.emplace_back(quantity + " " + axes[d] + " at " + name,
+                         sums[from + d] / sums[area]);
     };
-    if (wants("displacement"))
-      add("displacement", 0);
-    if (velocity != nullptr && wants("velocity"))
-      add("velocity", dim);
+    for (unsigned int f = 0; f < state.fields.size(); ++f)
+      if (wants(state.fields[f].name))
+        add(state.fields[f].name, dim * f);
     if (wants("stress"))
-      add("traction", 2 * dim);
-    return line;
-  }
-
-  template <int dim>
-  auto
-  Probes<dim>::columns_of_points(const VectorType &displacement,
-                                 const VectorType *velocity) -> Line
-  {
-    const auto values =
-      points->evaluate(displacement, velocity, !quantities.empty());
-    const auto at = [](const unsigned int point) {
-      return " at probe " + std::to_string(point + 1);
-    };
-    Line       line;
-    const auto add = [&](const std::string &quantity, const auto &of_points) {
-      for (unsigned int i = 0; wants(quantity) && i < of_points.size(); ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          line.emplace_back(quantity + " " + axes[d] + at(i), of_points[i][d]);
-    };
-    add("displacement", values.displacement);
-    add("velocity", values.velocity);
-    for (unsigned int t = 0; t < values.states.size(); ++t)
-      {
-        const auto &target = model.probe_points->targets[t];
-        for (const auto &quantity : quantities)
-          line.emplace_back(quantity.name + at(target.point) +
-                              (target.material == numbers::invalid_material_id ?
-                                 "" :
-                                 " in " + material_name(target.material)),
-                            quantity.value(values.states[t]));
-      }
-    return line;
+      add("traction", traction);
   }
 
   template <int dim>
   void
-  Probes<dim>::add_columns(Line             &line,
-                           const VectorType &displacement,
-                           const VectorType *velocity)
+  Probes<dim>::add_points(CSVTable::Row &row, const State &state)
   {
-    const GhostValues ghosts(displacement),
-      of_velocity(velocity != nullptr ? *velocity : displacement);
-    const auto append = [&](const Line &columns) {
-      line.insert(line.end(), columns.begin(), columns.end());
+    const auto values = points->evaluate(state, !quantities.empty());
+    const auto at     = [](const unsigned int point) {
+      return " at probe " + std::to_string(point + 1);
     };
+    for (unsigned int f = 0; f < state.fields.size(); ++f)
+      if (const std::string &name = state.fields[f].name; wants(name))
+        for (unsigned int i = 0; i < values.nodal[f].size(); ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            row.emplace_back(name + " " + axes[d] + at(i),
+                             values.nodal[f][i][d]);
+    for (unsigned int t = 0; t < values.states.size(); ++t)
+      {
+        const auto &target = model.probe_points->targets[t];
+        for (const auto &quantity : quantities)
+          row.emplace_back(quantity.name + at(target.point) +
+                             (target.material == numbers::invalid_material_id ?
+                                "" :
+                                " in " + material_name(target.material)),
+                           quantity.value(values.states[t]));
+      }
+  }
+
+  template <int dim>
+  void
+  Probes<dim>::add_columns(CSVTable::Row &row, const State &state)
+  {
+    std::list<GhostValues> ghosts;
+    for (const State::Field &field : state.fields)
+      ghosts.emplace_back(*field.values);
     if (points)
-      append(columns_of_points(displacement, velocity));
+      add_points(row, state);
     update_surfaces();
     for (unsigned int s = 0; s < surfaces.size(); ++s)
-      append(columns_of_surface(
-        model.probe_surfaces[s].first, surfaces[s], displacement, velocity));
+      add_surface(row, model.probe_surfaces[s].first, surfaces[s], state);
   }
 
   template <int dim>
   std::string
-  Probes<dim>::file(const unsigned int line, const std::string &ending)
+  Probes<dim>::file(const unsigned int transect, const std::string &ending)
   {
-    return "line-" + std::to_string(line + 1) + ending;
+    return "line-" + std::to_string(transect + 1) + ending;
   }
 
   template <int dim>
@@ -252,48 +239,48 @@ namespace Signoton
   Probes<dim>::file_names() const
   {
     std::string names;
-    for (unsigned int l = 0; l < model.probe_lines.size(); ++l)
+    for (unsigned int l = 0; l < model.transects.size(); ++l)
       names += "|" + file(l, "\\.(csv|gp|png)");
     return names;
   }
 
   template <int dim>
   std::string
-  Probes<dim>::write_lines(const double      time,
-                           const VectorType &displacement,
-                           const VectorType *velocity)
+  Probes<dim>::write_transects(const State &state)
   {
-    const GhostValues ghosts(displacement),
-      of_velocity(velocity != nullptr ? *velocity : displacement);
+    drawn_fields = state.fields;
+    std::list<GhostValues> ghosts;
+    for (const State::Field &field : state.fields)
+      ghosts.emplace_back(*field.values);
     const bool      with_materials = model.materials.size() > 1;
     CSVTable::Names names          = {"time", "distance"};
-    for (const char *quantity : {"displacement", "velocity"})
-      if (quantity[0] == 'd' || velocity != nullptr)
-        for (unsigned int d = 0; d < dim; ++d)
-          names.push_back(quantity + (" " + axes[d]));
-    for (const auto &quantity : line_quantities)
+    for (const State::Field &field : state.fields)
+      for (unsigned int d = 0; d < dim; ++d)
+        names.push_back(field.name + " " + axes[d]);
+    for (const auto &quantity : transect_quantities)
       names.push_back(quantity.name);
     if (with_materials)
       names.push_back("material id");
 
     std::string changes;
-    for (unsigned int l = 0; l < lines.size(); ++l)
+    for (unsigned int l = 0; l < transects.size(); ++l)
       {
-        const auto &line   = model.probe_lines[l];
-        const auto  at     = line.points();
-        const auto  values = lines[l]->evaluate(displacement, velocity, true);
-        std::vector<CSVTable::Row> rows;
+        const auto &transect = model.transects[l];
+        const auto  at       = transect.points();
+        const auto  values   = transects[l]->evaluate(state, true);
+        std::vector<CSVTable::Numbers> rows;
         for (unsigned int t = 0; t < values.states.size(); ++t)
           {
-            const auto   &target = line.places->targets[t];
-            CSVTable::Row row    = {time, at[target.point].distance(line.from)};
-            for (const auto *field : {&values.displacement, &values.velocity})
-              for (unsigned int d = 0; !field->empty() && d < dim; ++d)
-                row.push_back((*field)[target.point][d]);
-            for (const auto &quantity : line_quantities)
+            const auto       &target = transect.places->targets[t];
+            CSVTable::Numbers row    = {state.time,
+                                        at[target.point].distance(transect.from)};
+            for (const auto &field : values.nodal)
+              for (unsigned int d = 0; d < dim; ++d)
+                row.push_back(field[target.point][d]);
+            for (const auto &quantity : transect_quantities)
               row.push_back(quantity.value(values.states[t]));
             if (with_materials)
-              row.push_back(line.places->material(t));
+              row.push_back(transect.places->material(t));
             rows.push_back(row);
           }
         directory.enter({file(l, ".csv")});
@@ -304,74 +291,78 @@ namespace Signoton
   }
 
   template <int dim>
+  void
+  Probes<dim>::write_script(const unsigned int l) const
+  {
+    const Tensor<1, dim> way = model.transects[l].to - model.transects[l].from;
+    unsigned int         along = 0;
+    for (unsigned int d = 1; d < dim; ++d)
+      if (std::abs(way[d]) > std::abs(way[along]))
+        along = d;
+    // the last field says most: that of waves is the velocity
+    const State::Field &field = drawn_fields.back();
+    const unsigned int  first = 3, // behind time and distance
+      n_nodal                 = dim * drawn_fields.size();
+    const std::string name    = "line-" + std::to_string(l + 1);
+    const auto        panel   = [&](const std::string &title,
+                           const unsigned int column) {
+      const std::string c    = std::to_string(column),
+                        data = "'" + name + ".csv' skip 1 using ";
+      return "stats " + data + c +
+             " nooutput\n"
+                      "m = abs(STATS_min) > abs(STATS_max) ? abs(STATS_min) : "
+                      "abs(STATS_max)\n"
+                      "if (m > 0) set cbrange [-m:m]\n"
+                      "set title '" +
+             title + "'\nsplot " + data + "2:1:" + c + " notitle\n";
+    };
+    write_file(
+      model.communicator,
+      directory.path_of(file(l, ".gp")),
+      "# gnuplot " + name +
+        ".gp: place to the right, time upwards\n"
+        "set terminal png truecolor size 1150,480 font 'sans,11'\n"
+        "set output '" +
+        name +
+        ".png'\nset datafile separator ','\n"
+        "set xlabel 'distance (m)'\nset ylabel 't (s)' offset 1\n"
+        "set palette defined (-1 '#2166ac', 0 '#f7f7f7', 1 '#b2182b')\n"
+        "set pm3d map corners2color c1\n"
+        "set autoscale xfix\nset autoscale yfix\n"
+        "set multiplot layout 1,2\n" +
+        panel(field.name + " " + axes[along] + " (" + field.unit + ")",
+              first + n_nodal - dim + along) +
+        panel("stress " + entries[along] + " (Pa)", first + n_nodal + along) +
+        "unset multiplot\n");
+  }
+
+  template <int dim>
   bool
-  Probes<dim>::draw_lines() const
+  Probes<dim>::draw_transects() const
   {
     bool drawn = true;
-    for (unsigned int l = 0; l < model.probe_lines.size(); ++l)
-      {
-        const auto          &line  = model.probe_lines[l];
-        const Tensor<1, dim> way   = line.to - line.from;
-        unsigned int         along = 0;
-        for (unsigned int d = 1; d < dim; ++d)
-          if (std::abs(way[d]) > std::abs(way[along]))
-            along = d;
-        const unsigned int first = 3 + along, n_fields = model.is_dynamic ?
-                                                           2 * dim :
-                                                           (unsigned int)(dim);
-        const std::string  data =
-          "'line-" + std::to_string(l + 1) + ".csv' skip 1 using ";
-        const auto panel = [&](const std::string &name,
-                               const unsigned int column) {
-          const std::string c = std::to_string(column);
-          return "stats " + data + c +
-                 " nooutput\n"
-                 "m = abs(STATS_min) > abs(STATS_max) ? abs(STATS_min) : "
-                 "abs(STATS_max)\n"
-                 "if (m > 0) set cbrange [-m:m]\n"
-                 "set title '" +
-                 name + "'\nsplot " + data + "2:1:" + c + " notitle\n";
-        };
-        write_file(
-          model.communicator,
-          directory.path_of(file(l, ".gp")),
-          "# gnuplot line-" + std::to_string(l + 1) +
-            ".gp: place to the right, time upwards\n"
-            "set terminal png truecolor size 1150,480 font 'sans,11'\n"
-            "set output 'line-" +
-            std::to_string(l + 1) +
-            ".png'\nset datafile separator ','\n"
-            "set xlabel 'distance (m)'\nset ylabel 't (s)' offset 1\n"
-            "set palette defined (-1 '#2166ac', 0 '#f7f7f7', 1 '#b2182b')\n"
-            "set pm3d map corners2color c1\n"
-            "set autoscale xfix\nset autoscale yfix\n"
-            "set multiplot layout 1,2\n" +
-            panel((model.is_dynamic ? "velocity " : "displacement ") +
-                    axes[along] + (model.is_dynamic ? " (m/s)" : " (m)"),
-                  model.is_dynamic ? first + dim : first) +
-            panel("stress " + entries[along] + " (Pa)", 3 + n_fields + along) +
-            "unset multiplot\n");
-        directory.enter({file(l, ".png")});
-        if (Utilities::MPI::this_mpi_process(model.communicator) != 0)
-          continue;
-        drawn = drawn && run_gnuplot(directory.path,
-                                     "line-" + std::to_string(l + 1) + ".gp");
-      }
+    for (unsigned int l = 0; l < model.transects.size(); ++l)
+      if (!drawn_fields.empty())
+        {
+          write_script(l);
+          directory.enter({file(l, ".png")});
+          if (Utilities::MPI::this_mpi_process(model.communicator) == 0)
+            drawn = drawn && run_gnuplot(directory.path, file(l, ".gp"));
+        }
     return drawn;
   }
 
   template <int dim>
-  std::vector<std::pair<std::string, double>>
+  CSVTable::Row
   Probes<dim>::place(const unsigned int l) const
   {
-    const auto       &line = model.probe_lines[l];
-    const std::string of   = " of line " + std::to_string(l + 1);
-    std::vector<std::pair<std::string, double>> numbers = {
-      {"number of points" + of, line.n_points}};
+    const auto       &transect = model.transects[l];
+    const std::string of       = " of line " + std::to_string(l + 1);
+    CSVTable::Row     numbers  = {{"number of points" + of, transect.n_points}};
     for (unsigned int d = 0; d < dim; ++d)
       {
-        numbers.emplace_back("begin " + axes[d] + of, line.from[d]);
-        numbers.emplace_back("end " + axes[d] + of, line.to[d]);
+        numbers.emplace_back("begin " + axes[d] + of, transect.from[d]);
+        numbers.emplace_back("end " + axes[d] + of, transect.to[d]);
       }
     return numbers;
   }
@@ -381,7 +372,7 @@ namespace Signoton
   Probes<dim>::save(Checkpoint<dim> &checkpoint) const
   {
     checkpoint.set("samples of lines", n_samples);
-    for (unsigned int l = 0; l < model.probe_lines.size(); ++l)
+    for (unsigned int l = 0; l < model.transects.size(); ++l)
       for (const auto &[name, value] : place(l))
         checkpoint.set(name, value);
   }

@@ -57,12 +57,12 @@ namespace Signoton
   } // namespace
 
   template <int dim>
-  std::vector<std::pair<std::string, double>>
+  CSVTable::Row
   reaction_columns(const Model<dim> &model, const VectorType &support_forces)
   {
-    const std::array<std::string, 3>            axes = {{" x", " y", " z"}};
-    std::vector<std::pair<std::string, double>> columns;
-    const auto all = reactions(model, support_forces);
+    const std::array<std::string, 3> axes = {{" x", " y", " z"}};
+    CSVTable::Row                    columns;
+    const auto                       all = reactions(model, support_forces);
     for (unsigned int i = 0; i < all.size(); ++i)
       {
         if (!model.conditions[i].constrains())
@@ -79,7 +79,7 @@ namespace Signoton
   }
 
   template <int dim>
-  std::vector<std::pair<std::string, double>>
+  CSVTable::Row
   binder_shares(const Model<dim> &model,
                 const VectorType &support_forces,
                 const VectorType &binder_force)
@@ -89,7 +89,7 @@ namespace Signoton
     double largest        = 0.;
     for (const auto &reaction : all)
       largest = std::max(largest, reaction.force.norm());
-    std::vector<std::pair<std::string, double>> result;
+    CSVTable::Row result;
     for (unsigned int i = 0; i < all.size(); ++i)
       {
         const double whole = all[i].force.norm(),
@@ -100,12 +100,12 @@ namespace Signoton
     return result;
   }
 
-  template std::vector<std::pair<std::string, double>>
+  template CSVTable::Row
   reaction_columns<2>(const Model<2> &, const VectorType &);
-  template std::vector<std::pair<std::string, double>>
+  template CSVTable::Row
   reaction_columns<3>(const Model<3> &, const VectorType &);
-  template std::vector<std::pair<std::string, double>>
+  template CSVTable::Row
   binder_shares<2>(const Model<2> &, const VectorType &, const VectorType &);
-  template std::vector<std::pair<std::string, double>>
+  template CSVTable::Row
   binder_shares<3>(const Model<3> &, const VectorType &, const VectorType &);
 } // namespace Signoton

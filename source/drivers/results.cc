@@ -87,8 +87,7 @@ namespace Signoton
 
   template <int dim>
   void
-  Results<dim>::binders(
-    const std::vector<std::pair<std::string, double>> &shares)
+  Results<dim>::binders(const CSVTable::Row &shares)
   {
     for (const auto &[section, share] : shares)
       output.screen << "  binders bear " << short_number(100. * share, 3)
@@ -99,9 +98,8 @@ namespace Signoton
   }
 
   template <int dim>
-  typename RunOutput<dim>::Line
-  Results<dim>::statistics_line(const VectorType &displacement,
-                                const StepRecord &record)
+  CSVTable::Row
+  Results<dim>::statistics_row(const State &state, const StepRecord &record)
   {
     const NewtonResult newton =
       record.solves.empty() ? NewtonResult() : record.solves.back();
@@ -119,34 +117,32 @@ namespace Signoton
         linear_iterations += solve.linear_iterations();
         most_linear = std::max(most_linear, solve.most_linear_iterations());
       }
-    typename RunOutput<dim>::Line line = {
-      {"step", accepted_steps},
-      {"time", record.time},
-      {"step size", record.step_size},
-      {"cells", model.space->mesh.n_global_active_cells()},
-      {"unknowns", model.space->dof_handler.n_dofs()},
-      {"newton iterations", newton.iterations()},
-      {"newton iterations of all solves", newton_iterations},
-      {"most newton iterations of a solve", most_newton},
-      {"linear iterations of all solves", linear_iterations},
-      {"most linear iterations", most_linear},
-      {"residual", residual(0)},
-      {"residual one iteration before",
-       residual(newton.iterations() > 0 ? 1 : 0)},
-      {"tangent regularization", newton.regularization},
-      {"stored energy", record.balance.stored},
-      {"dissipated energy", dissipation},
-      {"external work", external_work},
-      {"energy gap", energy_gap(record)},
-      {"transfer drift", record.transfer_drift},
-      {"estimated error", record.estimated_error}};
+    CSVTable::Row row = {{"step", accepted_steps},
+                         {"time", record.time},
+                         {"step size", record.step_size},
+                         {"cells", model.space->mesh.n_global_active_cells()},
+                         {"unknowns", model.space->dof_handler.n_dofs()},
+                         {"newton iterations", newton.iterations()},
+                         {"newton iterations of all solves", newton_iterations},
+                         {"most newton iterations of a solve", most_newton},
+                         {"linear iterations of all solves", linear_iterations},
+                         {"most linear iterations", most_linear},
+                         {"residual", residual(0)},
+                         {"residual one iteration before",
+                          residual(newton.iterations() > 0 ? 1 : 0)},
+                         {"tangent regularization", newton.regularization},
+                         {"stored energy", record.balance.stored},
+                         {"dissipated energy", dissipation},
+                         {"external work", external_work},
+                         {"energy gap", energy_gap(record)},
+                         {"transfer drift", record.transfer_drift},
+                         {"estimated error", record.estimated_error}};
     for (unsigned int r = 0; r < Rheology::n_regions; ++r)
-      line.emplace_back(std::string("share of ") + Rheology::region_names[r],
-                        record.balance.region_share[r]);
-    line.insert(line.end(), record.reactions.begin(), record.reactions.end());
-    output.add_common(line,
-                      displacement,
-                      nullptr,
+      row.emplace_back(std::string("share of ") + Rheology::region_names[r],
+                       record.balance.region_share[r]);
+    row.insert(row.end(), record.reactions.begin(), record.reactions.end());
+    output.add_common(row,
+                      state,
                       {"constitutive update",
                        "assembly",
                        "preconditioner",
@@ -154,7 +150,7 @@ namespace Signoton
                        "mesh and transfer",
                        "error estimate",
                        "output"});
-    return line;
+    return row;
   }
 
   template <int dim>
@@ -172,16 +168,27 @@ namespace Signoton
   }
 
   template <int dim>
+  State
+  Results<dim>::state_of(const VectorType &displacement,
+                         const StepRecord &record) const
+  {
+    return {record.time,
+            accepted_steps,
+            {{"displacement", "m", &displacement}}};
+  }
+
+  template <int dim>
   void
   Results<dim>::at_rest(const VectorType &displacement,
                         const StepRecord &record)
   {
-    initial_energy   = record.balance.stored;
-    const auto timer = model.ledger.time("output");
-    output.append(statistics_line(displacement, record));
+    initial_energy    = record.balance.stored;
+    const auto  timer = model.ledger.time("output");
+    const State state = state_of(displacement, record);
+    output.append(statistics_row(state, record));
     if (model.output.fields_every > 0)
-      output.write_fields(displacement, nullptr, record.time, 0);
-    output.write_lines(displacement, nullptr, record.time);
+      output.write_fields(state);
+    output.write_transects(state);
   }
 
   template <int dim>
@@ -196,12 +203,13 @@ namespace Signoton
     dissipation += record.balance.dissipation;
     drift += record.transfer_drift;
     {
-      const auto timer = model.ledger.time("output");
-      output.append(statistics_line(displacement, record));
+      const auto  timer = model.ledger.time("output");
+      const State state = state_of(displacement, record);
+      output.append(statistics_row(state, record));
       const unsigned int every = model.output.fields_every;
       if (every > 0 && (is_last || accepted_steps % every == 0))
-        output.write_fields(displacement, nullptr, record.time, accepted_steps);
-      output.write_lines(displacement, nullptr, record.time);
+        output.write_fields(state);
+      output.write_transects(state);
     }
     output.screen << std::setw(6) << accepted_steps << std::setw(9)
                   << short_number(record.time, 5) << std::setw(10)

@@ -121,66 +121,54 @@ namespace Signoton
 
   template <int dim>
   void
-  RunOutput<dim>::add_common(Line                           &line,
-                             const VectorType               &displacement,
-                             const VectorType               *velocity,
+  RunOutput<dim>::add_common(CSVTable::Row                  &row,
+                             const State                    &state,
                              const std::vector<std::string> &phases)
   {
-    probes.add_columns(line, displacement, velocity);
+    probes.add_columns(row, state);
     if (model.reference)
       {
-        const auto error =
-          reference_error(displacement, *model.reference, VectorTools::L2_norm);
-        line.emplace_back("L2 error", error.first);
-        line.emplace_back("relative L2 error", error.second);
+        const auto error = reference_error(state.displacement(),
+                                           *model.reference,
+                                           VectorTools::L2_norm);
+        row.emplace_back("L2 error", error.first);
+        row.emplace_back("relative L2 error", error.second);
       }
     if (model.reference_velocity)
       {
         // the norm in which fronts converge
-        const auto error = reference_error(*velocity,
+        const auto error = reference_error(*state.find("velocity"),
                                            *model.reference_velocity,
                                            VectorTools::L1_norm);
-        line.emplace_back("L1 error of velocity", error.first);
-        line.emplace_back("relative L1 error of velocity", error.second);
+        row.emplace_back("L1 error of velocity", error.first);
+        row.emplace_back("relative L1 error of velocity", error.second);
       }
-    line.emplace_back("seconds", model.ledger.total_seconds());
+    row.emplace_back("seconds", model.ledger.total_seconds());
     for (const std::string &phase : phases)
-      line.emplace_back("seconds of " + phase, model.ledger.seconds(phase));
-    line.emplace_back("peak memory in MB", model.ledger.peak_memory() / 1e6);
+      row.emplace_back("seconds of " + phase, model.ledger.seconds(phase));
+    row.emplace_back("peak memory in MB", model.ledger.peak_memory() / 1e6);
   }
 
   template <int dim>
   void
-  RunOutput<dim>::append(const Line &line)
+  RunOutput<dim>::append(const CSVTable::Row &row)
   {
-    CSVTable::Names names;
-    CSVTable::Row   values;
-    for (const auto &[name, value] : line)
-      {
-        names.push_back(name);
-        values.push_back(value);
-      }
-    screen << statistics.append(names, {values});
+    screen << statistics.append(row);
   }
 
   template <int dim>
   void
-  RunOutput<dim>::write_fields(const VectorType  &displacement,
-                               const VectorType  *velocity,
-                               const double       time,
-                               const unsigned int step)
+  RunOutput<dim>::write_fields(const State &state)
   {
-    fields.write(displacement, velocity, time, step);
+    fields.write(state);
   }
 
   template <int dim>
   void
-  RunOutput<dim>::write_lines(const VectorType &displacement,
-                              const VectorType *velocity,
-                              const double      time)
+  RunOutput<dim>::write_transects(const State &state)
   {
-    if (probes.has_lines())
-      screen << probes.write_lines(time, displacement, velocity);
+    if (probes.has_transects())
+      screen << probes.write_transects(state);
   }
 
   template <int dim>
@@ -207,8 +195,8 @@ namespace Signoton
     screen << "\nWhere the time went:\n" << summary;
     if (!fields.snapshots().empty())
       screen << "Fields for ParaView: " << directory.path << "/fields.pvd\n";
-    if (probes.has_lines())
-      screen << (probes.draw_lines() ?
+    if (probes.has_transects())
+      screen << (probes.draw_transects() ?
                    "Lines over time:     " :
                    "Lines over time (gnuplot could not draw them): ")
              << directory.path << "/line-*\n";
@@ -254,7 +242,7 @@ namespace Signoton
   template <int dim>
   void
   RunOutput<dim>::resume(const Checkpoint<dim> &checkpoint,
-                         const unsigned int     n_lines)
+                         const unsigned int     n_rows)
   {
     resumed                                = true;
     const std::string               prefix = "snapshot ";
@@ -266,7 +254,7 @@ namespace Signoton
     fields.resume(snapshots);
     probes.resume(checkpoint);
 
-    statistics.resume(n_lines, true);
+    statistics.resume(n_rows, true);
   }
 
   template class RunOutput<2>;

@@ -160,7 +160,7 @@ namespace Signoton
     const std::string lines_at = model.file.where({"Output"}, "Probe lines");
     double            n_points = 0.;
     for (const auto &text :
-         Utilities::split_string_list(model.output.line_text, ';'))
+         Utilities::split_string_list(model.output.transect_text, ';'))
       {
         const auto parts = Utilities::split_string_list(text, ':');
         int        n     = 0;
@@ -183,15 +183,16 @@ namespace Signoton
                             "'",
                           "at most a million points on all lines",
                           "a line needs no more points than it meets cells");
-        model.probe_lines.push_back({parse_point<dim>(parts[0], lines_at),
-                                     parse_point<dim>(parts[1], lines_at),
-                                     static_cast<unsigned int>(n),
-                                     nullptr});
+        model.transects.push_back({parse_point<dim>(parts[0], lines_at),
+                                   parse_point<dim>(parts[1], lines_at),
+                                   static_cast<unsigned int>(n),
+                                   nullptr});
       }
-    if (model.is_dynamic && n_points * model.output.line_samples > 1e8)
+    if (model.is_dynamic && n_points * model.output.transect_samples > 1e8)
       throw UserError(model.file.where({"Output"}, "Probe line samples"),
                       number_text(n_points) + " points, " +
-                        std::to_string(model.output.line_samples) + " times",
+                        std::to_string(model.output.transect_samples) +
+                        " times",
                       "at most 1e8 rows in the files of lines",
                       "fewer samples or fewer points");
   }
@@ -212,7 +213,7 @@ namespace Signoton
     };
     if (!model.probes.empty())
       model.probe_points = locate(model.probes, "Probe points");
-    for (auto &line : model.probe_lines)
+    for (auto &line : model.transects)
       line.places = locate(line.points(), "Probe lines");
     std::vector<Point<dim>>  force_points;
     std::vector<std::string> force_keys;

@@ -1,9 +1,10 @@
 #ifndef signoton_tests_physical_numbers_h
 #define signoton_tests_physical_numbers_h
 
+#include <signoton/base/csv_table.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <map>
@@ -21,7 +22,7 @@
  */
 namespace PhysicalNumbers
 {
-  using Line = std::vector<std::pair<std::string, double>>;
+  using Line = Signoton::CSVTable::Row;
 
   /** Whether it is a line of the statistics of statics. */
   inline bool
@@ -37,25 +38,14 @@ namespace PhysicalNumbers
   inline std::vector<Line>
   read(const std::string &file_name)
   {
-    std::ifstream            file(file_name);
-    std::vector<Line>        lines;
-    std::vector<std::string> names;
-    for (std::string text; std::getline(file, text);)
-      {
-        std::istringstream stream(text);
-        std::string        item;
-        if (names.empty())
-          {
-            while (std::getline(stream, item, ','))
-              names.push_back(item.substr(1, item.size() - 2));
-            continue;
-          }
-        Line line;
-        while (std::getline(stream, item, ','))
-          line.emplace_back(names.at(line.size()), std::atof(item.c_str()));
-        if (!is_static(line) || line[0].second > 0.)
-          lines.push_back(line);
-      }
+    std::vector<Line> lines = Signoton::CSVTable::read(file_name);
+    lines.erase(std::remove_if(lines.begin(),
+                               lines.end(),
+                               [](const Line &line) {
+                                 return is_static(line) &&
+                                        !(line[0].second > 0.);
+                               }),
+                lines.end());
     return lines;
   }
 

@@ -19,8 +19,10 @@ namespace Signoton
   class CSVTable
   {
   public:
-    using Names = std::vector<std::string>;
-    using Row   = std::vector<double>;
+    using Names   = std::vector<std::string>;
+    using Numbers = std::vector<double>;
+    /** Numbers with the names of their columns. */
+    using Row = std::vector<std::pair<std::string, double>>;
 
     /** @param file_name of which nothing is touched until append() */
     CSVTable(const MPI_Comm &communicator, const std::string &file_name);
@@ -42,17 +44,24 @@ namespace Signoton
      *   other ranks than the first
      */
     std::string
-    append(const Names            &names,
-           const std::vector<Row> &rows,
-           const bool              ends_block = false);
+    append(const Names                &names,
+           const std::vector<Numbers> &rows,
+           const bool                  ends_block = false);
 
+    std::string
+    append(const Row &row);
+
+    /** All rows of a file; empty fields are left out. */
+    static std::vector<Row>
+    read(const std::string &file_name);
+
+  private:
     /** Lines of the file. */
     static std::string
     header(const Names &names);
     static std::string
-    line(const Row &row);
+    line(const Numbers &row);
 
-  private:
     /** Fields as they stand in the file. */
     using Fields = std::vector<std::string>;
 

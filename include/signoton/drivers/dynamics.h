@@ -30,8 +30,6 @@ namespace Signoton
     validate();
 
   protected:
-    using Line = typename RunOutput<dim>::Line;
-
     /** Adapt to the mesh. */
     virtual void
     setup();
@@ -50,7 +48,7 @@ namespace Signoton
     virtual std::string
     introduction() const = 0;
     virtual void
-    add_columns(Line &line) const = 0;
+    add_columns(CSVTable::Row &row) const = 0;
     virtual std::pair<std::string, std::string>
     screen_column() const = 0;
 
@@ -103,7 +101,7 @@ namespace Signoton
       return own;
     }
 
-    /** Whether the step that ends now gets a line of statistics. */
+    /** Whether the step that ends now gets a row of statistics. */
     bool
     is_reported() const
     {
@@ -117,8 +115,8 @@ namespace Signoton
       return !(time < model.time_integration.end);
     }
 
-    /** Whether anyone looks at the end of the step, so that energies are summed
-     *  up and the history is kept as it was before, see
+    /** Whether this step is reported or may change the mesh: then energies are
+     *  integrated, and the accepted history is kept until commit(), see
      *  Mechanics::dynamic_force(). */
     bool
     is_observed() const
@@ -157,11 +155,10 @@ namespace Signoton
       return static_cast<unsigned int>(n * part_of_run() + 1e-9);
     }
 
-    /** On the screen. */
     bool
-    is_line_due() const
+    is_screen_line_due() const
     {
-      return n_steps > 0 && part_of(20) > n_lines;
+      return n_steps > 0 && part_of(20) > n_screen_lines;
     }
 
     bool
@@ -174,15 +171,16 @@ namespace Signoton
     bool
     is_sample_due() const
     {
-      return !model.probe_lines.empty() &&
-             (n_steps == 0 || part_of(model.output.line_samples) > n_samples);
+      return !model.transects.empty() &&
+             (n_steps == 0 ||
+              part_of(model.output.transect_samples) > n_samples);
     }
 
     bool
     is_told() const
     {
       return is_reported() || is_snapshot_due() || is_sample_due() ||
-             is_line_due();
+             is_screen_line_due();
     }
 
     bool
@@ -277,14 +275,15 @@ namespace Signoton
     support_forces() const;
 
     void
-    add_statistics(const VectorType &u, const VectorType &v);
+    add_statistics(const State &state);
 
-    unsigned int n_reported = 0, n_snapshots = 0, n_samples = 0, n_lines = 0;
-    double       unknown_steps = 0.; ///< unknowns of all steps together
-    double       rest_energy   = 0.; ///< see energy_at_rest()
-    double       largest_jump  = 0.; ///< see WaveRefinement::mark()
-    double       missed_look   = 0.; ///< 1: the mesh is as before the last step
-    bool         is_interrupted = false; ///< by a signal to any rank
+    unsigned int n_reported = 0, n_snapshots = 0, n_samples = 0,
+                 n_screen_lines = 0;
+    double unknown_steps        = 0.; ///< unknowns of all steps together
+    double rest_energy          = 0.; ///< see energy_at_rest()
+    double largest_jump         = 0.; ///< see WaveRefinement::mark()
+    double missed_look    = 0.;    ///< 1: the mesh is as before the last step
+    bool   is_interrupted = false; ///< by a signal to any rank
     std::unique_ptr<PointSpace<dim>> history_space;
   };
 } // namespace Signoton

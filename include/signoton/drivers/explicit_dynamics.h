@@ -24,8 +24,6 @@ namespace Signoton
     using Dynamics<dim>::Dynamics;
 
   protected:
-    using typename Dynamics<dim>::Line;
-
     void
     setup() override;
 
@@ -38,7 +36,7 @@ namespace Signoton
     std::string
     introduction() const override;
     void
-    add_columns(Line &line) const override;
+    add_columns(CSVTable::Row &row) const override;
     std::pair<std::string, std::string>
     screen_column() const override;
     std::vector<std::pair<std::string, double *>>

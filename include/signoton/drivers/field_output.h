@@ -3,13 +3,16 @@
 
 #include <signoton/drivers/model.h>
 #include <signoton/drivers/output_directory.h>
+#include <signoton/drivers/state.h>
+
+#include <deal.II/numerics/data_out.h>
 
 namespace Signoton
 {
   /**
    * Fields for ParaView: a snapshot for some steps, and `fields.pvd` which
-   * lists them by time. Displacements and velocities are continuous. All else
-   * are averages over cells, which stay admissible; the stress is also there as
+   * lists them by time. Those of the nodes are continuous. All else are
+   * averages over cells, which stay admissible; the stress is also there as
    * NodalFields, whose names begin with `nodal_`. What no material of the scene
    * has is not written.
    */
@@ -19,13 +22,9 @@ namespace Signoton
   public:
     FieldOutput(Model<dim> &model, OutputDirectory &directory);
 
-    /** Write a snapshot and enter it in the list.
-     *  @param velocity nullptr in statics */
+    /** Write a snapshot and enter it in the list. */
     void
-    write(const VectorType  &displacement,
-          const VectorType  *velocity,
-          const double       time,
-          const unsigned int step);
+    write(const State &state);
 
     /** The time and the file of each snapshot. */
     using List = std::vector<std::pair<double, std::string>>;
@@ -48,6 +47,11 @@ namespace Signoton
 
     CellFields
     cell_fields(const VectorType &displacement);
+
+    /** Write this rank's part of a snapshot, and what lists the parts.
+     *  @return the name of the file that stands for all */
+    std::string
+    write_pieces(const DataOut<dim> &output, const unsigned int step);
 
     Model<dim>      &model;
     OutputDirectory &directory;

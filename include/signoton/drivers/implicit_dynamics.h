@@ -32,8 +32,6 @@ namespace Signoton
     explicit ImplicitDynamics(Model<dim> &model);
 
   protected:
-    using typename Dynamics<dim>::Line;
-
     void
     setup() override;
     void
@@ -44,7 +42,7 @@ namespace Signoton
     std::string
     introduction() const override;
     void
-    add_columns(Line &line) const override;
+    add_columns(CSVTable::Row &row) const override;
     std::pair<std::string, std::string>
     screen_column() const override;
     std::vector<std::pair<std::string, double *>>

@@ -25,8 +25,8 @@ namespace Signoton
     std::string  probe_text       = "";
     std::string  probe_quantities = "displacement, velocity";
     std::string  surface_text     = "";
-    std::string  line_text        = "";
-    unsigned int line_samples     = 200;
+    std::string  transect_text    = "";
+    unsigned int transect_samples = 200;
     bool         newton_history   = false;
   };
 
@@ -89,9 +89,9 @@ namespace Signoton
     unsigned int   snapshots        = 20;
   };
 
-  /** Points on a straight line, evenly spaced. */
+  /** Points on a straight line, evenly spaced: `Probe lines`. */
   template <int dim>
-  struct ProbeLine
+  struct Transect
   {
     Point<dim>                         from, to;
     unsigned int                       n_points = 2;
@@ -131,7 +131,7 @@ namespace Signoton
     /** The same for the velocity, in dynamics. */
     std::unique_ptr<SpaceTimeFunction<dim>> reference_velocity;
     std::vector<Point<dim>>                 probes;
-    std::vector<ProbeLine<dim>>             probe_lines;
+    std::vector<Transect<dim>>              transects;
     /** Names and ids of boundaries. */
     std::vector<std::pair<std::string, types::boundary_id>> probe_surfaces;
     /** The state before anything moves, if the scene gives one; strains and

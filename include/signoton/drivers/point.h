@@ -116,7 +116,7 @@ namespace Signoton
     std::unique_ptr<PointLaw>                   law;
     Vector6                          origin{}; ///< strain that counts as zero
     double                           strain_scale = 0., stress_scale = 0.;
-    std::vector<CSVTable::Row>       rows; ///< of the table
+    std::vector<CSVTable::Numbers>   rows; ///< of the table
     std::unique_ptr<OutputDirectory> results;
   };
 } // namespace Signoton

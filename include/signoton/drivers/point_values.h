@@ -2,13 +2,13 @@
 #define signoton_drivers_point_values_h
 
 #include <signoton/discretization/point_locator.h>
+#include <signoton/drivers/state.h>
 #include <signoton/operators/mechanics.h>
 
 namespace Signoton
 {
   /**
-   * Fields at given points. Displacement and velocity are what the elements
-   * say. All else is known at the quadrature points of a cell; at a point it is
+   * Fields at given points. Those of the nodes are what the elements say. All else is known at the quadrature points of a cell; at a point it is
    * the polynomial through them, of the degree of the displacement, which is
    * exact for what varies so in a cell. Where cells of one material share a
    * point it is the mean of theirs. Beyond the outer quadrature points a
@@ -31,17 +31,14 @@ namespace Signoton
     /** By point, and by target of the locator. */
     struct Values
     {
-      std::vector<Tensor<1, dim>> displacement, velocity;
-      std::vector<PointState>     states;
+      std::vector<std::vector<Tensor<1, dim>>> nodal; ///< for each field
+      std::vector<PointState>                  states;
     };
 
     /** On all ranks.
-     *  @param displacement,velocity with hanging nodes set and ghost values; no
-     *    velocity if it is nullptr */
+     *  @param state with ghost values in its fields */
     Values
-    evaluate(const VectorType &displacement,
-             const VectorType *velocity,
-             const bool        with_states);
+    evaluate(const State &state, const bool with_states);
 
   private:
     /** How a place is interpolated. */

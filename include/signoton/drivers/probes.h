@@ -14,45 +14,36 @@ namespace Signoton
   /**
    * Histories: what points, parts of the boundary and lines of the body see in
    * the course of a run. Points and surfaces are columns of the statistics;
-   * lines have files of their own, from which pictures over place and time are
-   * drawn.
+   * transects, along lines, have files of their own, from which pictures over
+   * place and time are drawn.
    */
   template <int dim>
   class Probes
   {
   public:
-    /** Names of columns with their values. */
-    using Line = std::vector<std::pair<std::string, double>>;
-
     Probes(Model<dim> &model, OutputDirectory &directory);
 
-    /** Add the columns of points and surfaces.
-     *  @param displacement with hanging nodes set, as is
-     *  @param velocity     nullptr in statics */
+    /** Add the columns of points and surfaces. */
     void
-    add_columns(Line             &line,
-                const VectorType &displacement,
-                const VectorType *velocity);
+    add_columns(CSVTable::Row &row, const State &state);
 
     bool
-    has_lines() const
+    has_transects() const
     {
-      return !model.probe_lines.empty();
+      return !model.transects.empty();
     }
 
-    /** Append the present state to the files of the lines.
+    /** Append a state to the files of the transects.
      *  @return see CSVTable::append() */
     std::string
-    write_lines(const double      time,
-                const VectorType &displacement,
-                const VectorType *velocity);
+    write_transects(const State &state);
 
-    /** Draw the lines over place and time, if there is gnuplot; false if there
-     *  is not. */
+    /** Draw the transects over place and time, if there is gnuplot; false if
+     *  there is not. */
     bool
-    draw_lines() const;
+    draw_transects() const;
 
-    /** A regular expression of the files of lines, to follow others. */
+    /** A regular expression of the files of transects, to follow others. */
     std::string
     file_names() const;
 
@@ -88,15 +79,18 @@ namespace Signoton
     void
     update_surfaces();
 
-    Line
-    columns_of_points(const VectorType &displacement,
-                      const VectorType *velocity);
+    void
+    add_points(CSVTable::Row &row, const State &state);
 
-    Line
-    columns_of_surface(const std::string &name,
-                       const Surface     &surface,
-                       const VectorType  &displacement,
-                       const VectorType  *velocity);
+    void
+    add_surface(CSVTable::Row     &row,
+                const std::string &name,
+                const Surface     &surface,
+                const State       &state);
+
+    /** Write what draws a transect. */
+    void
+    write_script(const unsigned int transect) const;
 
     /** Whose material the columns of a target are of, if it shares its point
      *  with others. */
@@ -106,25 +100,26 @@ namespace Signoton
     bool
     wants(const std::string &quantity) const;
 
-    /** Where a line is, in numbers for a checkpoint. */
-    std::vector<std::pair<std::string, double>>
-    place(const unsigned int line) const;
+    /** Where a transect is, in numbers for a checkpoint. */
+    CSVTable::Row
+    place(const unsigned int transect) const;
 
     /** The name of a file without its directory. */
     static std::string
-    file(const unsigned int line, const std::string &ending);
+    file(const unsigned int transect, const std::string &ending);
 
-    Model<dim>                                    &model;
-    OutputDirectory                               &directory;
-    const std::vector<std::string>                 wanted; ///< quantities
-    const std::vector<PointQuantity>               quantities, line_quantities;
-    std::vector<CSVTable>                          tables; ///< of lines
-    std::unique_ptr<PointValues<dim>>              points;
-    std::vector<std::unique_ptr<PointValues<dim>>> lines;
+    Model<dim>                       &model;
+    OutputDirectory                  &directory;
+    const std::vector<std::string>    wanted; ///< quantities
+    const std::vector<PointQuantity>  quantities, transect_quantities;
+    std::vector<CSVTable>             tables; ///< of transects
+    std::unique_ptr<PointValues<dim>> points;
+    std::vector<std::unique_ptr<PointValues<dim>>> transects;
     bool                                           surfaces_are_current = false;
     boost::signals2::scoped_connection             mesh_changes;
     std::vector<Surface>                           surfaces;
     unsigned int                                   n_samples = 0;
+    std::vector<State::Field> drawn_fields; ///< of transects, as last written
   };
 } // namespace Signoton
 

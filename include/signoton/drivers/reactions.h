@@ -1,6 +1,7 @@
 #ifndef signoton_drivers_reactions_h
 #define signoton_drivers_reactions_h
 
+#include <signoton/base/csv_table.h>
 #include <signoton/drivers/model.h>
 
 namespace Signoton
@@ -22,7 +23,7 @@ namespace Signoton
    *   in dynamics, before the elimination of conditions
    */
   template <int dim>
-  std::vector<std::pair<std::string, double>>
+  CSVTable::Row
   reaction_columns(const Model<dim> &model, const VectorType &support_forces);
 
   /** What binders bear of the reactions, by boundary sections: those of which it
@@ -31,7 +32,7 @@ namespace Signoton
    *
    *  @param binder_force see Mechanics::binder_force() */
   template <int dim>
-  std::vector<std::pair<std::string, double>>
+  CSVTable::Row
   binder_shares(const Model<dim> &model,
                 const VectorType &support_forces,
                 const VectorType &binder_force);

@@ -16,15 +16,15 @@ namespace Signoton
     double        transfer_drift  = 0.; ///< of stored energy, in J
     double        estimated_error = 0.; ///< 0 without refinement
     /** Columns, see reaction_columns(). */
-    std::vector<std::pair<std::string, double>> reactions;
+    CSVTable::Row reactions;
     /** One for each mesh and each binder of a continuation; the last one led
      *  to the accepted state. */
     std::vector<NewtonResult> solves;
   };
 
   /**
-   * The results of statics: a line a step on the screen and in
-   * `statistics.csv`, fields, and what RunOutput writes.
+   * The results of statics: a line on the screen and a row of
+   * `statistics.csv` a step, fields, and what RunOutput writes.
    */
   template <int dim>
   class Results
@@ -62,7 +62,7 @@ namespace Signoton
 
     /** Say what binders bear of the reactions, see binder_shares(). */
     void
-    binders(const std::vector<std::pair<std::string, double>> &shares);
+    binders(const CSVTable::Row &shares);
 
     /** Write the ledger and the summary. */
     void
@@ -115,9 +115,11 @@ namespace Signoton
     double
     energy_gap(const StepRecord &record) const;
 
-    /** Names and values of a line of the statistics. */
-    typename RunOutput<dim>::Line
-    statistics_line(const VectorType &displacement, const StepRecord &record);
+    State
+    state_of(const VectorType &displacement, const StepRecord &record) const;
+
+    CSVTable::Row
+    statistics_row(const State &state, const StepRecord &record);
 
     Model<dim>    &model;
     RunOutput<dim> output;

@@ -17,16 +17,13 @@ namespace Signoton
 {
   /**
    * What every run writes to its directory, whatever it computes:
-   * `resolved.prm`, a line of `statistics.csv` at a time, fields,
+   * `resolved.prm`, a row of `statistics.csv` at a time, fields,
    * `ledger.json`; and the screen.
    */
   template <int dim>
   class RunOutput
   {
   public:
-    /** Names of columns with their values. */
-    using Line = std::vector<std::pair<std::string, double>>;
-
     explicit RunOutput(Model<dim> &model);
 
     /** Open the directory; remove what an earlier run left, unless this one is
@@ -36,29 +33,22 @@ namespace Signoton
 
     /** Columns of every statistics: values of fields at the probes, errors
      *  against references, seconds and memory.
-     *  @param velocity nullptr in statics
-     *  @param phases   of the ledger */
+     *  @param phases of the ledger */
     void
-    add_common(Line                           &line,
-               const VectorType               &displacement,
-               const VectorType               *velocity,
+    add_common(CSVTable::Row                  &row,
+               const State                    &state,
                const std::vector<std::string> &phases);
 
     void
-    append(const Line &line);
+    append(const CSVTable::Row &row);
 
-    /** Fields for ParaView; without velocity in statics. */
+    /** Fields for ParaView. */
     void
-    write_fields(const VectorType  &displacement,
-                 const VectorType  *velocity,
-                 const double       time,
-                 const unsigned int step);
+    write_fields(const State &state);
 
-    /** See Probes::write_lines(). */
+    /** See Probes::write_transects(). */
     void
-    write_lines(const VectorType &displacement,
-                const VectorType *velocity,
-                const double      time);
+    write_transects(const State &state);
 
     /** Estimate of the time left, at a time of the run. */
     std::string
@@ -81,11 +71,11 @@ namespace Signoton
     nothing_left(const double time, const std::string &section);
 
     /** Put what must survive a restart into a checkpoint, and back.
-     *  @param n_lines of the statistics that are kept */
+     *  @param n_rows of the statistics that are kept */
     void
     save(Checkpoint<dim> &checkpoint) const;
     void
-    resume(const Checkpoint<dim> &checkpoint, const unsigned int n_lines);
+    resume(const Checkpoint<dim> &checkpoint, const unsigned int n_rows);
 
     /** Keep other runs from the directory, before a checkpoint is read. */
     void
