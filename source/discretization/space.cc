@@ -77,15 +77,19 @@ namespace Signoton
     : n_components(n_components)
     , fe(FE_DGQArbitraryNodes<dim>(QGauss<1>(space.degree + 1)), n_components)
     , dof_handler(space.mesh)
+    , mesh_changes(
+        space.mesh.signals.any_change.connect([this] { is_current = false; }))
   {
-    distribute_dofs();
+    update();
   }
 
   template <int dim>
   void
-  PointSpace<dim>::distribute_dofs()
+  PointSpace<dim>::update()
   {
-    dof_handler.distribute_dofs(fe);
+    if (!is_current)
+      dof_handler.distribute_dofs(fe);
+    is_current = true;
   }
 
   template <int dim>

@@ -208,9 +208,9 @@ namespace Signoton
 
   template <int dim>
   void
-  Checkpoint<dim>::write(const PointSpace<dim>                 *history_space,
-                         const std::vector<const VectorType *> &fields)
+  Checkpoint<dim>::write(const std::vector<const VectorType *> &fields)
   {
+    const auto *history_space    = model.history_space();
     namespace fs                 = std::filesystem;
     const std::string unfinished = directory + ".unfinished";
     // p4est ends the whole program if it cannot write: make sure of the space
@@ -355,14 +355,13 @@ namespace Signoton
 
   template <int dim>
   void
-  Checkpoint<dim>::load_fields(const PointSpace<dim>           *history_space,
-                               const std::vector<VectorType *> &fields)
+  Checkpoint<dim>::load_fields(const std::vector<VectorType *> &fields)
   {
     parallel::distributed::SolutionTransfer<dim, VectorType> load(
       model.space->dof_handler);
     std::vector<VectorType *> loaded(fields);
     load.deserialize(loaded);
-    if (history_space)
+    if (const auto *history_space = model.history_space())
       {
         VectorType history = history_space->make_relevant_vector();
         parallel::distributed::SolutionTransfer<dim, VectorType> load_history(

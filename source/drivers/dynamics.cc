@@ -29,8 +29,6 @@ namespace Signoton
     supports.reinit(space, model.conditions);
     absorbing.reinit(space, model.materials, model.conditions, supports);
     loads.reinit();
-    if (history_space)
-      history_space->distribute_dofs();
 
     for (VectorType *vector : {&displacement,
                                &velocity,
@@ -353,16 +351,6 @@ namespace Signoton
   }
 
   template <int dim>
-  PointSpace<dim> *
-  Dynamics<dim>::need_history_space()
-  {
-    const unsigned int width = model.mechanics->state_width();
-    if (!history_space && width > 0)
-      history_space = std::make_unique<PointSpace<dim>>(*model.space, width);
-    return history_space.get();
-  }
-
-  template <int dim>
   void
   Dynamics<dim>::save()
   {
@@ -374,8 +362,7 @@ namespace Signoton
     checkpoint.set("accepted steps", n_steps);
     checkpoint.set("lines of statistics", n_reported);
     output.save(checkpoint);
-    checkpoint.write(need_history_space(),
-                     {&displacement, &velocity, &acceleration, &internal});
+    checkpoint.write({&displacement, &velocity, &acceleration, &internal});
   }
 
   template <int dim>
@@ -399,7 +386,6 @@ namespace Signoton
     n_screen_lines = part_of(20);
     setup();
     checkpoint.load_fields(
-      need_history_space(),
       {&displacement, &velocity, &acceleration, &internal});
     // follow others, whatever they were given
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)

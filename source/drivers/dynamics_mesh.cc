@@ -1,9 +1,9 @@
 #include <signoton/discretization/momentum_transfer.h>
 #include <signoton/discretization/stress_jumps.h>
 #include <signoton/drivers/dynamics.h>
+#include <signoton/drivers/mesh_change.h>
 #include <signoton/operators/lumped_mass.h>
 
-#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -145,45 +145,15 @@ namespace Signoton
     const double rest_before = rest_energy;
     const double before      = receipt.kinetic + receipt.stored - rest_before;
 
-    using Transfer = parallel::distributed::SolutionTransfer<dim, VectorType>;
-    VectorType u   = space.make_relevant_vector(), v(u), history;
-    u.copy_locally_owned_data_from(displacement);
-    v.copy_locally_owned_data_from(velocity);
-    for (VectorType *vector : {&u, &v})
-      {
-        space.mesh_constraints.distribute(*vector);
-        vector->update_ghost_values();
-      }
-    CellMass<dim>             cell_mass(space, model.materials);
-    Transfer                  motion(space.dof_handler);
-    std::unique_ptr<Transfer> of_history;
-    space.mesh.prepare_coarsening_and_refinement();
-    motion.prepare_for_coarsening_and_refinement(
-      std::vector<const VectorType *>{&u, &v});
-    if (need_history_space() != nullptr)
-      {
-        history = history_space->make_relevant_vector();
-        mechanics->save_history(*history_space, history);
-        history.update_ghost_values();
-        of_history = std::make_unique<Transfer>(history_space->dof_handler);
-        of_history->prepare_for_coarsening_and_refinement(history);
-      }
-    MomentumTransfer<dim> momentum(space, v, std::ref(cell_mass));
-    space.mesh.execute_coarsening_and_refinement();
-
+    CellMass<dim>         cell_mass(space, model.materials);
+    MeshChange<dim>       change(model, {&displacement, &velocity});
+    MomentumTransfer<dim> momentum(space, change.old(1), std::ref(cell_mass));
+    change.execute();
     setup();
-    u = space.make_relevant_vector();
-    v.reinit(u);
-    std::vector<VectorType *> moved_fields{&displacement, &velocity};
-    motion.interpolate(moved_fields);
-    if (history_space)
-      {
-        VectorType new_history = history_space->make_relevant_vector();
-        of_history->interpolate(new_history);
-        mechanics->load_history(*history_space, new_history);
-      }
+    change.finish({&displacement, &velocity});
     supports.place(displacement, time);
     supports.stop(velocity);
+    VectorType v = space.make_relevant_vector();
     v.copy_locally_owned_data_from(velocity);
     space.mesh_constraints.distribute(v);
     v.update_ghost_values();

@@ -1,9 +1,8 @@
 #include <signoton/discretization/traction_jumps.h>
 #include <signoton/drivers/checkpoint.h>
+#include <signoton/drivers/mesh_change.h>
 #include <signoton/drivers/reactions.h>
 #include <signoton/drivers/statics.h>
-
-#include <deal.II/distributed/solution_transfer.h>
 
 namespace Signoton
 {
@@ -31,15 +30,6 @@ namespace Signoton
       loads.reinit();
     }
     problem.reinit();
-    if (model.mechanics->history_width() > 0)
-      {
-        if (history_space)
-          history_space->distribute_dofs();
-        else
-          history_space =
-            std::make_unique<PointSpace<dim>>(*model.space,
-                                              model.mechanics->history_width());
-      }
   }
 
   template <int dim>
@@ -142,54 +132,17 @@ namespace Signoton
   void
   Statics<dim>::transfer(VectorType &trial)
   {
-    auto        &space = *model.space;
     const double stored_before =
       model.mechanics->energy_balance(displacement).stored;
-
-    VectorType old_displacement = space.make_relevant_vector(),
-               old_trial        = space.make_relevant_vector(), old_history;
-    old_displacement.copy_locally_owned_data_from(displacement);
-    old_trial.copy_locally_owned_data_from(trial);
-    old_displacement.update_ghost_values();
-    old_trial.update_ghost_values();
-    parallel::distributed::SolutionTransfer<dim, VectorType> move(
-      space.dof_handler);
-    std::unique_ptr<parallel::distributed::SolutionTransfer<dim, VectorType>>
-      move_history;
-
     {
-      const auto timer = model.ledger.time("mesh and transfer");
-      space.mesh.prepare_coarsening_and_refinement();
-      move.prepare_for_coarsening_and_refinement(
-        std::vector<const VectorType *>{&old_displacement, &old_trial});
-      if (history_space)
-        {
-          old_history = history_space->make_relevant_vector();
-          model.mechanics->save_history(*history_space, old_history);
-          old_history.update_ghost_values();
-          move_history = std::make_unique<
-            parallel::distributed::SolutionTransfer<dim, VectorType>>(
-            history_space->dof_handler);
-          move_history->prepare_for_coarsening_and_refinement(old_history);
-        }
-      space.mesh.execute_coarsening_and_refinement();
+      const auto      timer = model.ledger.time("mesh and transfer");
+      MeshChange<dim> change(model, {&displacement, &trial});
+      change.execute();
+      setup_unknowns();
+      change.finish({&displacement, &trial});
     }
-    setup_unknowns();
-    {
-      const auto timer = model.ledger.time("mesh and transfer");
-      model.mechanics->initialize_vector(displacement);
-      model.mechanics->initialize_vector(trial);
-      std::vector<VectorType *> moved{&displacement, &trial};
-      move.interpolate(moved);
-      // The accepted state need not fulfill conditions: the next one will.
-      space.mesh_constraints.distribute(displacement);
-      if (history_space)
-        {
-          VectorType history = history_space->make_relevant_vector();
-          move_history->interpolate(history);
-          model.mechanics->load_history(*history_space, history);
-        }
-    }
+    // The accepted state need not fulfill conditions: the next one will.
+    model.space->mesh_constraints.distribute(displacement);
     // back to the admissible set, at fixed strain and in no time: dampers stand
     // still
     const auto timer = model.ledger.time("constitutive update");
@@ -369,8 +322,7 @@ namespace Signoton
         setup_unknowns();
         for (VectorType *vector : {&displacement, &support_force})
           model.mechanics->initialize_vector(*vector);
-        checkpoint.load_fields(history_space.get(),
-                               {&displacement, &support_force});
+        checkpoint.load_fields({&displacement, &support_force});
         model.space->mesh_constraints.distribute(displacement);
         model.space->mesh_constraints.set_zero(support_force);
         results.resume(checkpoint);
@@ -405,8 +357,7 @@ namespace Signoton
               checkpoint.set("end of a cut step " + std::to_string(i),
                              step_ends[i]);
             results.save(checkpoint);
-            checkpoint.write(history_space.get(),
-                             {&displacement, &support_force});
+            checkpoint.write({&displacement, &support_force});
           }
         if (is_interrupted)
           return results.interrupt(time);

@@ -79,8 +79,9 @@ namespace Signoton
   public:
     PointSpace(const Space<dim> &space, const unsigned int n_components);
 
+    /** Number the degrees of freedom, unless the mesh is still the same. */
     void
-    distribute_dofs();
+    update();
 
     /** With ghost values of neighbor cells, not yet filled. */
     VectorType
@@ -96,6 +97,10 @@ namespace Signoton
     const unsigned int n_components;
     FESystem<dim>      fe;
     DoFHandler<dim>    dof_handler;
+
+  private:
+    bool                               is_current = false;
+    boost::signals2::scoped_connection mesh_changes;
   };
 } // namespace Signoton
 

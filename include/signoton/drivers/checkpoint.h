@@ -36,22 +36,19 @@ namespace Signoton
     std::vector<std::string>
     names(const std::string &prefix) const;
 
-    /** Write the accepted state.
-     *  @param history_space nullptr if the scene has no history
-     *  @param fields        of the unknowns, the displacement first */
+    /** Write the accepted state: fields of the unknowns, the displacement
+     *  first, and history. */
     void
-    write(const PointSpace<dim>                 *history_space,
-          const std::vector<const VectorType *> &fields);
+    write(const std::vector<const VectorType *> &fields);
 
     /** Read the numbers, and the refinement of the mesh of the scene. */
     void
     load_mesh();
 
-    /** Read the fields in the order in which they were written; unknowns must
-     *  have been distributed on the mesh. */
+    /** Read the fields in the order in which they were written, and history;
+     *  unknowns must have been distributed on the mesh. */
     void
-    load_fields(const PointSpace<dim>           *history_space,
-                const std::vector<VectorType *> &fields);
+    load_fields(const std::vector<VectorType *> &fields);
 
   private:
     std::string

@@ -249,11 +249,6 @@ namespace Signoton
     std::array<double, dim>
     momentum() const;
 
-    /** Where what points remember goes to another mesh or a checkpoint, made
-     *  when it is asked for; nullptr if they remember nothing. Collective. */
-    PointSpace<dim> *
-    need_history_space();
-
     void
     save();
 
@@ -284,7 +279,6 @@ namespace Signoton
     double largest_jump         = 0.; ///< see WaveRefinement::mark()
     double missed_look    = 0.;    ///< 1: the mesh is as before the last step
     bool   is_interrupted = false; ///< by a signal to any rank
-    std::unique_ptr<PointSpace<dim>> history_space;
   };
 } // namespace Signoton
 

@@ -168,6 +168,20 @@ namespace Signoton
     /** Where probes and point forces are; nullptr if there are none. */
     std::unique_ptr<PointLocator<dim>> probe_points, force_points;
 
+    /** Where what points remember goes to another mesh or a checkpoint, made
+     *  when it is asked for; nullptr if they remember nothing. Collective. */
+    PointSpace<dim> *
+    history_space()
+    {
+      const unsigned int width = mechanics->state_width();
+      if (width == 0)
+        return nullptr;
+      if (!history_points)
+        history_points = std::make_unique<PointSpace<dim>>(*space, width);
+      history_points->update();
+      return history_points.get();
+    }
+
     void
     set_time(const double time)
     {
@@ -183,6 +197,9 @@ namespace Signoton
       if (reference_velocity)
         reference_velocity->set_time(time);
     }
+
+  private:
+    std::unique_ptr<PointSpace<dim>> history_points;
   };
 } // namespace Signoton
 

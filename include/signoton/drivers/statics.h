@@ -84,13 +84,12 @@ namespace Signoton
     bool
     is_last_step() const;
 
-    Model<dim>                      &model;
-    Loads<dim>                       loads;
-    Supports<dim>                    supports;
-    EquilibriumProblem<dim>          problem;
-    Newton                           newton;
-    std::unique_ptr<PointSpace<dim>> history_space;
-    Results<dim>                     results;
+    Model<dim>             &model;
+    Loads<dim>              loads;
+    Supports<dim>           supports;
+    EquilibriumProblem<dim> problem;
+    Newton                  newton;
+    Results<dim>            results;
 
     StepRecord   record;
     NewtonResult last_result;
