@@ -107,6 +107,34 @@ namespace Signoton
     }
   } // namespace
 
+  std::vector<std::string>
+  SceneFile::drop(const ParameterHandler &others, const ParameterHandler &own)
+  {
+    const Tree theirs = declared_tree(others), ours = declared_tree(own);
+    std::vector<std::string> places;
+    for (const std::string &section : subsections({}))
+      {
+        const Tree *their = child(theirs, section), *our = child(ours, section);
+        if (their == nullptr)
+          continue;
+        const auto given = keys({section});
+        if (our == nullptr)
+          {
+            places.push_back(where({section}, given.empty() ? "" : given[0]) +
+                             " and the rest of '" + section + "'");
+            remove({section});
+            continue;
+          }
+        for (const std::string &key : given)
+          if (child(*our, key) == nullptr && child(*their, key) != nullptr)
+            {
+              places.push_back(where({section}, key));
+              remove({section}, key);
+            }
+      }
+    return places;
+  }
+
   void
   SceneFile::apply_to(ParameterHandler &handler) const
   {

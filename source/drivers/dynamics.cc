@@ -10,11 +10,13 @@
 namespace Signoton
 {
   template <int dim>
-  Dynamics<dim>::Dynamics(Model<dim> &model)
+  Dynamics<dim>::Dynamics(Model<dim>                 &model,
+                          const DynamicAnalysis<dim> &analysis)
     : model(model)
+    , analysis(analysis)
     , output(model)
     , loads(model)
-    , time(model.time_integration.start)
+    , time(analysis.time_integration.start)
   {}
 
   template <int dim>
@@ -55,7 +57,7 @@ namespace Signoton
         add_loads(LoadKind::varying, external);
       }
     model.mechanics->balance_rest(external);
-    if (model.wave_refinement.is_on())
+    if (analysis.wave_refinement.is_on())
       rest_energy = energy_at_rest();
   }
 
@@ -304,12 +306,12 @@ namespace Signoton
       add_statistics(state);
     if (is_snapshot_due())
       {
-        n_snapshots = part_of(model.time_integration.snapshots);
+        n_snapshots = part_of(analysis.time_integration.snapshots);
         output.write_fields(state);
       }
     if (is_sample_due())
       {
-        n_samples = part_of(model.output.transect_samples);
+        n_samples = part_of(analysis.transect_samples);
         output.write_transects(state);
       }
     if (is_screen_line_due())
@@ -381,8 +383,8 @@ namespace Signoton
     n_steps    = checkpoint.number("accepted steps");
     n_reported = checkpoint.number("lines of statistics");
     // the end may be another one now
-    n_snapshots    = part_of(model.time_integration.snapshots);
-    n_samples      = part_of(model.output.transect_samples);
+    n_snapshots    = part_of(analysis.time_integration.snapshots);
+    n_samples      = part_of(analysis.transect_samples);
     n_screen_lines = part_of(20);
     setup();
     checkpoint.load_fields(
@@ -403,7 +405,7 @@ namespace Signoton
   void
   Dynamics<dim>::make_up_for_mesh()
   {
-    if (missed_look > 0. && model.wave_refinement.is_on() && mark())
+    if (missed_look > 0. && analysis.wave_refinement.is_on() && mark())
       transfer();
     missed_look = 0.;
   }
@@ -413,7 +415,7 @@ namespace Signoton
   Dynamics<dim>::validate()
   {
     model.mechanics->set_shock_viscosity(
-      model.time_integration.shock_viscosity);
+      analysis.time_integration.shock_viscosity);
     setup();
     choose_step();
     refuse_jump();
@@ -424,7 +426,7 @@ namespace Signoton
   Dynamics<dim>::run(const std::string &resume_directory)
   {
     model.mechanics->set_shock_viscosity(
-      model.time_integration.shock_viscosity);
+      analysis.time_integration.shock_viscosity);
     model.set_time(time);
     if (resume_directory.empty())
       {
@@ -439,7 +441,8 @@ namespace Signoton
         choose_step();
         make_up_for_mesh();
       }
-    output.start(model.time_integration.start, model.time_integration.end);
+    output.start(analysis.time_integration.start,
+                 analysis.time_integration.end);
     output.screen << introduction() << "\n\n"
                   << "    step           t  unknowns    kinetic     stored"
                      "        gap"

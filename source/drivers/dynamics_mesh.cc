@@ -29,9 +29,9 @@ namespace Signoton
   {
     refuse_jump();
     set_initial_motion();
-    if (!model.wave_refinement.is_on())
+    if (!analysis.wave_refinement.is_on())
       return;
-    for (unsigned int level = 0; level < model.wave_refinement.n_levels();
+    for (unsigned int level = 0; level < analysis.wave_refinement.n_levels();
          ++level)
       {
         if (!mark())
@@ -69,7 +69,7 @@ namespace Signoton
   {
     const auto   timer = model.ledger.time("error estimate");
     auto        &space = *model.space;
-    const double ahead = model.wave_refinement.interval() * time_step;
+    const double ahead = analysis.wave_refinement.interval() * time_step;
     double       speed = 0., stiffness = 0.;
     boost::container::flat_map<types::material_id, double> shear_modulus;
     for (const auto &material : model.materials)
@@ -128,10 +128,10 @@ namespace Signoton
         model.set_time(look_at(i));
         jumps.add_boundary(model.conditions);
       }
-    const bool changes = model.wave_refinement.mark(space,
-                                                    jumps.values,
-                                                    speed * ahead,
-                                                    largest_jump);
+    const bool changes = analysis.wave_refinement.mark(space,
+                                                       jumps.values,
+                                                       speed * ahead,
+                                                       largest_jump);
     model.set_time(time);
     return changes;
   }
@@ -203,7 +203,7 @@ namespace Signoton
         mechanics->discard();
       }
     mechanics->set_time_step(time_step);
-    mechanics->set_shock_viscosity(model.time_integration.shock_viscosity);
+    mechanics->set_shock_viscosity(analysis.time_integration.shock_viscosity);
     mechanics->begin_step(displacement);
     mechanics->add_shock_force(internal);
   }

@@ -10,9 +10,9 @@ namespace Signoton
   {
     Dynamics<dim>::setup();
     stable_step = model.mechanics->stable_time_step() *
-                  model.wave_refinement.finest_part(*model.space);
+                  analysis.wave_refinement.finest_part(*model.space);
     // viscosity shortens the stable step by the part of critical damping
-    const double part = model.time_integration.shock_viscosity.bound();
+    const double part = analysis.time_integration.shock_viscosity.bound();
     stable_step *= std::sqrt(1. + part * part) - part;
   }
 
@@ -20,7 +20,7 @@ namespace Signoton
   void
   ExplicitDynamics<dim>::choose_step()
   {
-    const TimeIntegration &parameters = model.time_integration;
+    const TimeIntegration &parameters = analysis.time_integration;
     if (parameters.time_step > stable_step)
       throw UserError(model.file.where({"Time integration"}, "Time step"),
                       number_text(parameters.time_step),
@@ -87,7 +87,7 @@ namespace Signoton
   double
   ExplicitDynamics<dim>::quiet_displacement()
   {
-    if (!model.time_integration.quiet_zones)
+    if (!analysis.time_integration.quiet_zones)
       return -1.;
     // The foot of a wave runs ahead of it by a cell a step and fades to nothing
     // that counts: what is below the round-off of the largest displacement

@@ -5,9 +5,10 @@
 namespace Signoton
 {
   template <int dim>
-  ImplicitDynamics<dim>::ImplicitDynamics(Model<dim> &model)
-    : Dynamics<dim>(model)
-    , radius(model.time_integration.spectral_radius)
+  ImplicitDynamics<dim>::ImplicitDynamics(Model<dim>                 &model,
+                                          const DynamicAnalysis<dim> &analysis)
+    : Dynamics<dim>(model, analysis)
+    , radius(analysis.time_integration.spectral_radius)
     , beta(1. / ((1. + radius) * (1. + radius)))
     , gamma(0.5 + (1. - radius) / (1. + radius))
     , inertia(*model.space, mass, predicted, pull)
@@ -24,7 +25,7 @@ namespace Signoton
     problem.reinit();
     this->old_external.reinit(external);
     stable_step = model.mechanics->stable_time_step() *
-                  model.wave_refinement.finest_part(*model.space);
+                  analysis.wave_refinement.finest_part(*model.space);
   }
 
   template <int dim>
@@ -32,14 +33,14 @@ namespace Signoton
   ImplicitDynamics<dim>::shortest_step() const
   {
     return 1e-3 *
-           (is_automatic ? stable_step : model.time_integration.time_step);
+           (is_automatic ? stable_step : analysis.time_integration.time_step);
   }
 
   template <int dim>
   void
   ImplicitDynamics<dim>::choose_step()
   {
-    const TimeIntegration &parameters = model.time_integration;
+    const TimeIntegration &parameters = analysis.time_integration;
     is_automatic                      = !(parameters.time_step > 0.);
     if (!is_automatic)
       next_step = parameters.time_step;
@@ -54,7 +55,7 @@ namespace Signoton
   ImplicitDynamics<dim>::introduction() const
   {
     const double longest =
-      is_automatic ? model.time_integration.longest_step() : next_step;
+      is_automatic ? analysis.time_integration.longest_step() : next_step;
     // After a jump of a load on a bar, in steps that cross two to ten cells,
     // velocities and stresses go up and down by 4 to 18 % at a radius of 0.9, by
     // half of that at 0.8, the default, and by less than 3 % at 0.5.
@@ -264,7 +265,7 @@ namespace Signoton
   void
   ImplicitDynamics<dim>::step()
   {
-    const TimeIntegration &parameters = model.time_integration;
+    const TimeIntegration &parameters = analysis.time_integration;
     restart_at_jump();
     const double start = time;
     old_external       = external;
@@ -353,8 +354,8 @@ namespace Signoton
     // hundredth over the run, or else the next steps are shorter, down to where
     // waves cross a cell.
     constexpr double most = 0.01;
-    const double     part =
-      time_step / (model.time_integration.end - model.time_integration.start);
+    const double     part = time_step / (analysis.time_integration.end -
+                                     analysis.time_integration.start);
     if (is_automatic &&
         lost - receipt.time_stepping > most * part * receipt.largest)
       next_step = std::max(std::min(stable_step, next_step), 0.5 * time_step);

@@ -7,8 +7,9 @@ namespace Signoton
 {
 
   template <int dim>
-  Results<dim>::Results(Model<dim> &model)
+  Results<dim>::Results(Model<dim> &model, const StaticAnalysis<dim> &analysis)
     : model(model)
+    , analysis(analysis)
     , output(model)
   {}
 
@@ -16,7 +17,7 @@ namespace Signoton
   void
   Results<dim>::start(const double time)
   {
-    output.start(time, model.load_steps.end);
+    output.start(time, analysis.load_steps.end);
     output.screen
       << "  step        t  unknowns  Newton  linear  residual   interior"
       << "    seconds  left\n";
@@ -26,7 +27,7 @@ namespace Signoton
   void
   Results<dim>::print_newton_history(const NewtonResult &newton)
   {
-    if (!model.output.newton_history)
+    if (!analysis.newton_history)
       return;
     for (unsigned int i = 0; i < newton.history.size(); ++i)
       {
@@ -186,7 +187,7 @@ namespace Signoton
     const auto  timer = model.ledger.time("output");
     const State state = state_of(displacement, record);
     output.append(statistics_row(state, record));
-    if (model.output.fields_every > 0)
+    if (analysis.fields_every > 0)
       output.write_fields(state);
     output.write_transects(state);
   }
@@ -206,7 +207,7 @@ namespace Signoton
       const auto  timer = model.ledger.time("output");
       const State state = state_of(displacement, record);
       output.append(statistics_row(state, record));
-      const unsigned int every = model.output.fields_every;
+      const unsigned int every = analysis.fields_every;
       if (every > 0 && (is_last || accepted_steps % every == 0))
         output.write_fields(state);
       output.write_transects(state);

@@ -7,14 +7,15 @@
 namespace Signoton
 {
   template <int dim>
-  Statics<dim>::Statics(Model<dim> &model)
+  Statics<dim>::Statics(Model<dim> &model, const StaticAnalysis<dim> &analysis)
     : model(model)
+    , analysis(analysis)
     , loads(model)
     , problem(model, supports)
     , newton(model.newton)
-    , results(model)
-    , time(model.load_steps.start)
-    , step_size(model.load_steps.step_size)
+    , results(model, analysis)
+    , time(analysis.load_steps.start)
+    , step_size(analysis.load_steps.step_size)
   {}
 
   template <int dim>
@@ -121,7 +122,7 @@ namespace Signoton
           region.push_back(average.region);
           mixed.push_back(average.mixed);
         }
-      changes = model.refinement.mark(space, indicators, region, mixed);
+      changes = analysis.refinement.mark(space, indicators, region, mixed);
     }
     if (changes)
       transfer(trial);
@@ -180,7 +181,7 @@ namespace Signoton
   bool
   Statics<dim>::advance()
   {
-    const LoadSteps &steps  = model.load_steps;
+    const LoadSteps &steps  = analysis.load_steps;
     bool             is_cut = !step_ends.empty();
     unsigned int     cycle  = 0;
     record                  = StepRecord();
@@ -194,7 +195,7 @@ namespace Signoton
         VectorType trial(displacement);
         last_result = solve(end, trial, true);
         const unsigned int cycles =
-          model.refinement.cycles(results.n_accepted() + 1);
+          analysis.refinement.cycles(results.n_accepted() + 1);
         for (; cycle < cycles && last_result.converged; ++cycle)
           {
             if (!refine(trial))
@@ -227,7 +228,7 @@ namespace Signoton
   bool
   Statics<dim>::is_last_step() const
   {
-    return !(time < model.load_steps.end);
+    return !(time < analysis.load_steps.end);
   }
 
   template <int dim>

@@ -20,24 +20,15 @@ namespace Signoton
       return text.str();
     }
 
-    template <int dim>
-    std::pair<double, double>
-    interval(const Model<dim> &model)
-    {
-      if (model.is_dynamic)
-        return {model.time_integration.start, model.time_integration.end};
-      return {model.load_steps.start, model.load_steps.end};
-    }
-
     /** Times of the run, at no even part of it, where periodic functions may
      *  vanish. */
     template <int dim>
     std::vector<double>
     sample_times(const Model<dim> &model)
     {
-      constexpr unsigned int n    = 17;
-      const auto [start, end]     = interval(model);
-      std::vector<double> samples = {start};
+      constexpr unsigned int n                = 17;
+      const auto [section, start, end, times] = model.analysis->time_span();
+      std::vector<double> samples             = {start};
       for (unsigned int i = 1; i <= n; ++i)
         samples.push_back(start + i * (end - start) / n);
       return samples;
@@ -113,8 +104,8 @@ namespace Signoton
         };
         if (!of_velocity)
           return at(time);
-        const auto [start, end] = interval(model);
-        const double step       = 1e-5 * (end - start);
+        const auto [section, start, end, times] = model.analysis->time_span();
+        const double step                       = 1e-5 * (end - start);
         return (at(time + step) - at(time - step)) / (2. * step);
       }
 
@@ -315,7 +306,7 @@ namespace Signoton
     add_lost_loads(model, remarks);
     add_facets(model, remarks);
     add_axis(model, remarks);
-    model.set_time(interval(model).first);
+    model.set_time(model.analysis->time_span().start);
     return remarks;
   }
 

@@ -51,11 +51,9 @@ namespace Signoton
       names_of(materials, [](const auto &m) { return m.has_binder; });
     const auto heavy =
       names_of(materials, [](const auto &m) { return m.density > 0.; });
-    const bool is_explicit =
-      model.is_dynamic && !model.time_integration.is_implicit();
-    const bool initial = model.initial_strain || model.initial_stress;
-    const bool shock =
-      model.is_dynamic && bool(model.time_integration.shock_viscosity);
+    const bool is_explicit = !model.analysis->solves_equations;
+    const bool initial     = model.initial_strain || model.initial_stress;
+    const bool shock       = model.analysis->has_shock_viscosity();
     // of a cell and its share of the displacement at the begin of the step
     const unsigned int shock_bytes =
       sizeof(double) * (FrontSensor<dim>::n_numbers + 3 + 3 * dim) /
@@ -66,9 +64,8 @@ namespace Signoton
         return m.has_potential;
       });
     const bool gravity  = model.gravity && !heavy.empty();
-    const bool adaptive = model.is_dynamic ? model.wave_refinement.is_on() :
-                                             model.refinement.cycles(1) > 0 ||
-                                               model.refinement.is_used_later();
+    const bool adaptive = model.analysis->adaptivity().is_on,
+               inertia  = model.analysis->has_inertia;
 
     std::vector<std::string> with_dashpots;
     for (const auto &condition : model.conditions)
@@ -111,13 +108,11 @@ namespace Signoton
              0},
             {"adaptive mesh",
              adaptive,
-             std::string(adaptive ? "" : "no ") +
-               (model.is_dynamic ? "Refinement / Follow waves" :
-                                   "Refinement / Cycles"),
+             (adaptive ? "" : "no ") + model.analysis->adaptivity().key,
              0},
             {"inertia",
-             model.is_dynamic,
-             model.is_dynamic ? "Analysis = dynamics" : "Analysis = statics",
+             inertia,
+             inertia ? "Analysis = dynamics" : "Analysis = statics",
              0},
             {"initial state",
              initial,
@@ -139,9 +134,8 @@ namespace Signoton
   MemoryForecast
   memory_forecast(const Model<dim> &model, const double growth)
   {
-    const bool is_explicit =
-      model.is_dynamic && !model.time_integration.is_implicit();
-    unsigned int bytes = 0;
+    const bool   is_explicit = !model.analysis->solves_equations;
+    unsigned int bytes       = 0;
     for (const auto &effect : requirements(model))
       bytes += effect.bytes_per_point;
     const double points = growth * model.space->mesh.n_global_active_cells() *
@@ -162,19 +156,8 @@ namespace Signoton
   std::string
   explain(const Model<dim> &model)
   {
-    const bool is_explicit =
-      model.is_dynamic && !model.time_integration.is_implicit();
     std::ostringstream out;
-    out << (model.is_dynamic ?
-              "Equations: density * acceleration = div stress + load,\n"
-              "  stress by the material from strain = sym grad u and history;\n"
-              "  " +
-                std::string(is_explicit ? "central differences" :
-                                          "generalized alpha") +
-                " in time, diagonal mass" :
-              "Equations: find the displacement u that minimizes\n"
-              "  sum over the body of W_n(strain(u)) - work of the loads,\n"
-              "  strain = sym grad u, stress = dW_n/dstrain")
+    out << "Equations: " << model.analysis->equations()
         << (dim == 3 ? ", in three dimensions" :
             model.space->axisymmetric ?
                        ", rotationally symmetric about x = 0" :
@@ -205,13 +188,9 @@ namespace Signoton
         << "\nMemory forecast in MB, besides some 200 MB of libraries a rank:\n"
            "                          points    matrix    solver   vectors\n";
     forecast("at the start", 1.);
-    const double limit = model.is_dynamic ?
-                           model.wave_refinement.unknowns_limit() :
-                           model.refinement.unknowns_limit();
-    if (model.is_dynamic ?
-          model.wave_refinement.is_on() :
-          model.refinement.cycles(1) > 0 || model.refinement.is_used_later())
-      forecast("at Maximum unknowns", std::max(1., limit / n));
+    if (model.analysis->adaptivity().is_on)
+      forecast("at Maximum unknowns",
+               std::max(1., model.analysis->adaptivity().unknowns_limit / n));
     return out.str();
   }
 

@@ -1,10 +1,9 @@
 #include <signoton/base/first_rank.h>
 #include <signoton/base/memory.h>
 #include <signoton/base/quoting.h>
-#include <signoton/drivers/explicit_dynamics.h>
-#include <signoton/drivers/implicit_dynamics.h>
+
 #include <signoton/drivers/point.h>
-#include <signoton/drivers/statics.h>
+
 #include <signoton/scene/boundary_report.h>
 #include <signoton/scene/requirements.h>
 #include <signoton/scene/scene.h>
@@ -20,16 +19,6 @@ namespace Signoton
 {
   namespace
   {
-    /** The driver of dynamics that the scene chooses. */
-    template <int dim>
-    std::unique_ptr<Dynamics<dim>>
-    make_dynamics(Model<dim> &model)
-    {
-      if (model.time_integration.is_implicit())
-        return std::make_unique<ImplicitDynamics<dim>>(model);
-      return std::make_unique<ExplicitDynamics<dim>>(model);
-    }
-
     template <int dim>
     ExitStatus
     build_and_run(const MPI_Comm  &communicator,
@@ -68,8 +57,7 @@ namespace Signoton
                        "what takes the memory");
       if (options.action != Options::Action::run)
         {
-          if (scene.model.is_dynamic)
-            make_dynamics(scene.model)->validate();
+          scene.model.analysis->validate();
           if (options.action == Options::Action::explain)
             screen << "\n" << explain(scene.model);
           else
@@ -79,9 +67,7 @@ namespace Signoton
       for (const auto &effect : requirements(scene.model))
         if (effect.on)
           screen << "  " << effect.name << ": " << effect.why << "\n";
-      return scene.model.is_dynamic ?
-               make_dynamics(scene.model)->run(options.resume_directory) :
-               Statics<dim>(scene.model).run(options.resume_directory);
+      return scene.model.analysis->run(options.resume_directory);
     }
     /** The file with what the command line overrides.
      *  @param foreign a section that only the other kind of file has

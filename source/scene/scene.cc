@@ -1,5 +1,7 @@
 #include <signoton/base/quoting.h>
 #include <signoton/base/scene_template.h>
+#include <signoton/drivers/dynamic_analysis.h>
+#include <signoton/drivers/static_analysis.h>
 #include <signoton/rheology/classification.h>
 #include <signoton/scene/scene.h>
 
@@ -50,7 +52,7 @@ namespace Signoton
         {
           const Moduli moduli = material.elasticity;
           const bool   yields =
-            !model.is_dynamic &&
+            !model.analysis->has_inertia &&
             Rheology::contains(material.scheme, Rheology::Scheme::Kind::hinge);
           if (yields || moduli.bulk > incompressible * moduli.shear)
             names.push_back("'" + material.name + "', which " +
@@ -67,19 +69,17 @@ namespace Signoton
   Scene<dim>::Scene(const MPI_Comm &communicator, const SceneFile &file)
     : model(communicator)
   {
-    model.file       = file;
-    model.is_dynamic = file.value({}, "Analysis", analysis) == "dynamics";
-    // other values are refused with the rest
-    if (file.value({"Time integration"}, "Scheme") == "implicit")
-      model.time_integration.scheme = "implicit";
-    drop_unused();
+    model.file = file;
+
     for (const auto &name : file.subsections({"Materials"}))
       materials.emplace_back(name);
     for (const auto &name : file.subsections({"Boundaries"}))
       model.conditions.emplace_back(name);
     for (const auto &name : file.subsections({"Point forces"}))
       model.point_forces.emplace_back(name);
+    choose_analysis();
     add_parameters(handler);
+    drop_unused();
     model.file.apply_to(handler);
     title                  = unquoted(title);
     model.output.directory = unquoted(model.output.directory);
@@ -88,53 +88,38 @@ namespace Signoton
 
   template <int dim>
   void
+  Scene<dim>::choose_analysis()
+  {
+    // other values are refused with the rest
+    const SceneFile &file = model.file;
+    const bool is_dynamic = file.value({}, "Analysis", analysis) == "dynamics",
+               is_implicit =
+                 file.value({"Time integration"}, "Scheme") == "implicit";
+    std::array<std::unique_ptr<Analysis<dim>>, 3> all = {
+      {std::make_unique<StaticAnalysis<dim>>(model),
+       std::make_unique<DynamicAnalysis<dim>>(model, "explicit"),
+       std::make_unique<DynamicAnalysis<dim>>(model, "implicit")}};
+    const unsigned int chosen = !is_dynamic ? 0 : is_implicit ? 2 : 1;
+    for (unsigned int i = 0; i < all.size(); ++i)
+      if (i == chosen)
+        model.analysis = std::move(all[i]);
+      else
+        others.push_back(std::move(all[i]));
+  }
+
+  template <int dim>
+  void
   Scene<dim>::drop_unused()
   {
-    SceneFile &file = model.file;
-    const auto drop = [&](const std::string &section,
-                          const std::string &key = "") {
-      const auto sections = file.subsections({});
-      const bool is_there =
-        key.empty() ? std::find(sections.begin(), sections.end(), section) !=
-                        sections.end() :
-                      file.has({section}, key);
-      if (!is_there)
-        return;
-      const auto keys = file.keys({section});
-      warnings.push_back(
-        file.where({section}, !key.empty() || keys.empty() ? key : keys[0]) +
-        (key.empty() ? " and the rest of '" + section + "'" : "") +
-        " has no effect with Analysis = " +
-        (model.is_dynamic ?
-           "dynamics, Scheme = " + model.time_integration.scheme :
-           "statics"));
-      file.remove({section}, key);
-    };
-    if (!model.is_dynamic)
+    for (auto &other : others)
       {
-        drop("Time integration");
-        drop("Initial state", "Velocity");
-        for (const char *key :
-             {"Follow waves", "Refine threshold", "Coarsen threshold"})
-          drop("Refinement", key);
-        drop("Reference solution", "Velocity");
-        drop("Output", "Probe line samples");
-        return;
+        ParameterHandler keys;
+        other->add_parameters(keys);
+        for (const std::string &place : model.file.drop(keys, handler))
+          warnings.push_back(
+            place + " has no effect with Analysis = " + model.analysis->name);
       }
-    drop("Load steps");
-    drop("Output", "Fields every");
-    drop("Output", "Newton history");
-    for (const char *key : {"Cycles in first step",
-                            "Cycles per step",
-                            "Refine fraction",
-                            "Coarsen fraction",
-                            "Region weight"})
-      drop("Refinement", key);
-    if (!model.time_integration.is_implicit())
-      {
-        drop("Newton");
-        drop("Linear solver");
-      }
+    others.clear();
   }
 
   template <int dim>
@@ -221,16 +206,7 @@ namespace Signoton
                       initial_stress_text,
                       "Stress before anything moves in Pa, expressions " +
                         entries + ".");
-    if (model.is_dynamic)
-      prm.add_parameter("Velocity",
-                        initial_velocity_text,
-                        "In m/s, one expression per direction separated by "
-                        "';'.");
     prm.leave_subsection();
-    if (model.is_dynamic)
-      model.time_integration.add_parameters(prm);
-    else
-      model.load_steps.add_parameters(prm);
 
     prm.enter_subsection("Discretization");
     prm.add_parameter("Degree",
@@ -247,27 +223,14 @@ namespace Signoton
       Patterns::Selection("nearest|refuse"));
     prm.leave_subsection();
 
-    if (model.is_dynamic)
-      model.wave_refinement.add_parameters(prm);
-    else
-      model.refinement.add_parameters(prm);
-    if (!model.is_dynamic || model.time_integration.is_implicit())
-      {
-        model.newton.add_parameters(prm);
-        model.linear_solver.add_parameters(prm);
-      }
-    model.output.add_parameters(prm, model.is_dynamic);
+    model.analysis->add_parameters(prm);
+    model.output.add_parameters(prm);
 
     prm.enter_subsection("Reference solution");
     prm.add_parameter("Displacement",
                       reference_text,
                       "Exact displacement in m to measure the error against, "
                       "one expression per direction separated by ';'.");
-    if (model.is_dynamic)
-      prm.add_parameter("Velocity",
-                        reference_velocity_text,
-                        "Exact velocity in m/s, in the same way; its error is "
-                        "measured in the L1 norm.");
     prm.leave_subsection();
   }
 
@@ -303,10 +266,6 @@ namespace Signoton
       model.reference =
         vector_function(reference_text,
                         file.where({"Reference solution"}, "Displacement"));
-    if (!reference_velocity_text.empty())
-      model.reference_velocity =
-        vector_function(reference_velocity_text,
-                        file.where({"Reference solution"}, "Velocity"));
     model.gravity_varies = model.gravity && model.gravity->varies();
     if (const std::string weightless = check_weight(model, gravity_text);
         !weightless.empty())
@@ -315,24 +274,10 @@ namespace Signoton
       if (const std::string locking = check_locking(model); !locking.empty())
         warnings.push_back(locking);
     interpret_initial_state();
-    if (model.is_dynamic)
-      interpret_dynamics();
-    else
-      model.load_steps.check(file);
-    if (!file.has({"Refinement"}, "Minimum level"))
-      {
-        model.refinement.set_minimum_level(model.geometry.initial_refinement);
-        model.wave_refinement.set_minimum_level(
-          model.geometry.initial_refinement);
-      }
-    if (model.is_dynamic)
-      model.wave_refinement.check(file);
-    else
-      model.refinement.check(file);
-
     for (auto &force : model.point_forces)
       force.initialize(file, constants);
     interpret_probes();
+    model.analysis->check(constants);
     model.space = std::make_unique<Space<dim>>(model.communicator,
                                                degree,
                                                embedding == "axisymmetric");
@@ -347,48 +292,21 @@ namespace Signoton
 
   template <int dim>
   void
-  Scene<dim>::interpret_dynamics()
-  {
-    const SceneFile &file = model.file;
-    model.time_integration.check(file);
-    for (const auto &material : model.materials)
-      if (!(material.density > 0.))
-        throw UserError(file.where({"Materials", material.name}, "Density"),
-                        file.has({"Materials", material.name}, "Density") ?
-                          "density zero" :
-                          "no density",
-                        "a positive number in kg/m^3: waves need inertia",
-                        "set Density = 1800, for instance");
-    const bool linear    = std::all_of(model.materials.begin(),
-                                    model.materials.end(),
-                                    [](const auto &m) { return m.is_elastic; });
-    auto      &viscosity = model.time_integration.shock_viscosity;
-    if (linear && !file.has({"Time integration"}, "Linear shock viscosity"))
-      viscosity.linear = 0.;
-    if (linear && !file.has({"Time integration"}, "Quadratic shock viscosity"))
-      viscosity.quadratic = 0.;
-  }
-
-  template <int dim>
-  void
   Scene<dim>::interpret_initial_state()
   {
-    const SceneFile      &file     = model.file;
-    const SceneFile::Path path     = {"Initial state"};
-    const auto            function = [&](const std::string &key,
-                              const std::string &text,
-                              const unsigned int n_components) {
-      const std::string where = file.where(path, key);
+    const SceneFile      &file = model.file;
+    const SceneFile::Path path = {"Initial state"};
+    const auto function = [&](const std::string &key, const std::string &text) {
+      constexpr unsigned int n_entries = dim == 2 ? 4 : 6;
+      const std::string      where     = file.where(path, key);
       return text.empty() ?
-                          nullptr :
-                          make_function<dim>(split_components(text, n_components, where),
+               nullptr :
+               make_function<dim>(split_components(text, n_entries, where),
                                   constants,
                                   where);
     };
-    constexpr unsigned int n_entries = dim == 2 ? 4 : 6;
-    model.initial_strain   = function("Strain", initial_strain_text, n_entries);
-    model.initial_stress   = function("Stress", initial_stress_text, n_entries);
-    model.initial_velocity = function("Velocity", initial_velocity_text, dim);
+    model.initial_strain = function("Strain", initial_strain_text);
+    model.initial_stress = function("Stress", initial_stress_text);
     if (!model.initial_strain && !model.initial_stress)
       return;
     for (const auto &material : model.materials)
@@ -424,13 +342,13 @@ namespace Signoton
     model.mechanics = make_mechanics(space, model.materials);
 
     const auto timer = model.ledger.time("setup");
-    model.set_time(model.start_time());
+    model.set_time(model.analysis->time_span().start);
     space.distribute_dofs();
     space.update_constraints(model.conditions);
     model.mechanics->set_initial_state({model.initial_strain.get(),
                                         model.initial_stress.get(),
                                         model.file.where({"Initial state"})});
-    if (model.is_dynamic)
+    if (model.analysis->has_inertia)
       return;
     check_supports();
     for (const auto &material : model.materials)

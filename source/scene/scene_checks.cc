@@ -17,7 +17,7 @@ namespace Signoton
   void
   Scene<dim>::check_boundaries() const
   {
-    if (model.is_dynamic)
+    if (model.analysis->has_inertia)
       return;
     for (const auto &condition : model.conditions)
       if (const std::string key = condition.dynamic_key(); !key.empty())
@@ -188,13 +188,6 @@ namespace Signoton
                                    static_cast<unsigned int>(n),
                                    nullptr});
       }
-    if (model.is_dynamic && n_points * model.output.transect_samples > 1e8)
-      throw UserError(model.file.where({"Output"}, "Probe line samples"),
-                      number_text(n_points) + " points, " +
-                        std::to_string(model.output.transect_samples) +
-                        " times",
-                      "at most 1e8 rows in the files of lines",
-                      "fewer samples or fewer points");
   }
 
   template <int dim>

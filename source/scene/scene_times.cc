@@ -35,16 +35,12 @@ namespace Signoton
   void
   Scene<dim>::find_times_to_meet()
   {
-    const SceneFile  &file = model.file;
-    const std::string section =
-      model.is_dynamic ? "Time integration" : "Load steps";
-    const double start = model.start_time(), end = model.end_time();
+    const SceneFile &file  = model.file;
+    TimeSpan        &span  = model.analysis->time_span();
+    const double     start = span.start, end = span.end;
     model.times_to_meet     = TimesToMeet(start, end);
-    const std::string where = file.where({section}, "Times");
-    for (const double time :
-         read_times(model.is_dynamic ? model.time_integration.times :
-                                       model.load_steps.times,
-                    where))
+    const std::string where = file.where({span.section}, "Times");
+    for (const double time : read_times(span.times, where))
       {
         if (time < start || time > end)
           throw UserError(where,
@@ -57,7 +53,7 @@ namespace Signoton
 
     const auto places = sample_places(body_box(model.space->mesh));
     const bool watches =
-      model.is_dynamic && model.time_integration.is_implicit();
+      model.analysis->has_inertia && model.analysis->solves_equations;
     if (watches)
       model.load_watch.places = places;
     const auto look = [&](const std::unique_ptr<SpaceTimeFunction<dim>> &f,
@@ -88,7 +84,7 @@ namespace Signoton
             const std::string at =
               file.where(path, std::string("Displacement ") + axes[d]);
             for (const Kink &kink : look(condition.displacement[d], at))
-              if (model.is_dynamic && kink.jumps)
+              if (model.analysis->has_inertia && kink.jumps)
                 throw UserError(at,
                                 "a displacement that jumps at t = " +
                                   number_text(kink.after),
@@ -106,8 +102,8 @@ namespace Signoton
       look(point.force, file.where({"Point forces", point.name}, "Force"));
     look(model.gravity, file.where({"Loads"}, "Gravity"));
     // the state of a body with mass knows nothing of a jump in no time
-    if (model.is_dynamic)
-      model.time_integration.end = model.times_to_meet.end_before_jump();
+    if (model.analysis->has_inertia)
+      span.end = model.times_to_meet.end_before_jump();
   }
 
 #define INSTANTIATE(dim) template void Scene<dim>::find_times_to_meet();

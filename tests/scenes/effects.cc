@@ -2,6 +2,7 @@
 // are really allocated, for a scene of each rheology.
 
 #include <signoton/base/mpi_session.h>
+#include <signoton/drivers/dynamic_analysis.h>
 #include <signoton/scene/requirements.h>
 #include <signoton/scene/scene.h>
 
@@ -100,7 +101,8 @@ namespace
     auto    &model = scene.model;
     scene.build();
     model.mechanics->set_shock_viscosity(
-      model.time_integration.shock_viscosity);
+      dynamic_cast<const DynamicAnalysis<2> &>(*model.analysis)
+        .time_integration.shock_viscosity);
     model.mechanics->reinit();
     model.mechanics->set_time_step(1.);
     VectorType u, force;

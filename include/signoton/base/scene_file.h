@@ -75,6 +75,12 @@ namespace Signoton
     void
     apply_to(ParameterHandler &handler) const;
 
+    /** Remove the keys of top sections, and whole sections, that one handler has
+     *  and the other has not.
+     *  @return where they stood */
+    std::vector<std::string>
+    drop(const ParameterHandler &others, const ParameterHandler &own);
+
     /** All entries, the last one of each key, as a parameter file. */
     std::string
     text() const;

@@ -1,6 +1,7 @@
 #ifndef signoton_drivers_dynamics_h
 #define signoton_drivers_dynamics_h
 
+#include <signoton/drivers/dynamic_analysis.h>
 #include <signoton/drivers/loads.h>
 #include <signoton/drivers/receipt.h>
 #include <signoton/drivers/run_output.h>
@@ -18,7 +19,7 @@ namespace Signoton
   class Dynamics
   {
   public:
-    explicit Dynamics(Model<dim> &model);
+    Dynamics(Model<dim> &model, const DynamicAnalysis<dim> &analysis);
     virtual ~Dynamics() = default;
 
     /** Start from the initial state, or from a checkpoint. */
@@ -106,13 +107,13 @@ namespace Signoton
     is_reported() const
     {
       return is_finished() ||
-             n_steps % model.time_integration.statistics_every == 0;
+             n_steps % analysis.time_integration.statistics_every == 0;
     }
 
     bool
     is_finished() const
     {
-      return !(time < model.time_integration.end);
+      return !(time < analysis.time_integration.end);
     }
 
     /** Whether this step is reported or may change the mesh: then energies are
@@ -124,11 +125,12 @@ namespace Signoton
       return is_told() || is_mesh_due();
     }
 
-    Model<dim>            &model;
-    RunOutput<dim>         output;
-    Supports<dim>          supports;
-    AbsorbingBoundary<dim> absorbing;
-    Loads<dim>             loads;
+    Model<dim>                 &model;
+    const DynamicAnalysis<dim> &analysis;
+    RunOutput<dim>              output;
+    Supports<dim>               supports;
+    AbsorbingBoundary<dim>      absorbing;
+    Loads<dim>                  loads;
 
     VectorType   displacement, velocity, acceleration;
     VectorType   mass, inverse_mass;
@@ -144,7 +146,7 @@ namespace Signoton
     double
     part_of_run() const
     {
-      const TimeIntegration &parameters = model.time_integration;
+      const TimeIntegration &parameters = analysis.time_integration;
       return (time - parameters.start) / (parameters.end - parameters.start);
     }
 
@@ -164,7 +166,7 @@ namespace Signoton
     bool
     is_snapshot_due() const
     {
-      const unsigned int wanted = model.time_integration.snapshots;
+      const unsigned int wanted = analysis.time_integration.snapshots;
       return wanted > 0 && (n_steps == 0 || part_of(wanted) > n_snapshots);
     }
 
@@ -172,8 +174,7 @@ namespace Signoton
     is_sample_due() const
     {
       return !model.transects.empty() &&
-             (n_steps == 0 ||
-              part_of(model.output.transect_samples) > n_samples);
+             (n_steps == 0 || part_of(analysis.transect_samples) > n_samples);
     }
 
     bool
@@ -186,8 +187,8 @@ namespace Signoton
     bool
     is_look_due() const
     {
-      return model.wave_refinement.is_on() &&
-             n_steps % model.wave_refinement.interval() == 0;
+      return analysis.wave_refinement.is_on() &&
+             n_steps % analysis.wave_refinement.interval() == 0;
     }
 
     bool

@@ -44,6 +44,7 @@ namespace Signoton
 
   private:
     using Dynamics<dim>::model;
+    using Dynamics<dim>::analysis;
     using Dynamics<dim>::supports;
     using Dynamics<dim>::absorbing;
     using Dynamics<dim>::loads;

@@ -29,7 +29,7 @@ namespace Signoton
   class ImplicitDynamics : public Dynamics<dim>
   {
   public:
-    explicit ImplicitDynamics(Model<dim> &model);
+    ImplicitDynamics(Model<dim> &model, const DynamicAnalysis<dim> &analysis);
 
   protected:
     void
@@ -50,6 +50,7 @@ namespace Signoton
 
   private:
     using Dynamics<dim>::model;
+    using Dynamics<dim>::analysis;
     using Dynamics<dim>::supports;
     using Dynamics<dim>::absorbing;
     using Dynamics<dim>::displacement;

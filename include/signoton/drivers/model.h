@@ -3,8 +3,7 @@
 
 #include <signoton/base/ledger.h>
 #include <signoton/discretization/point_locator.h>
-#include <signoton/discretization/refinement.h>
-#include <signoton/discretization/wave_refinement.h>
+#include <signoton/drivers/analysis.h>
 #include <signoton/drivers/load_watch.h>
 #include <signoton/operators/mechanics.h>
 #include <signoton/operators/point_forces.h>
@@ -16,77 +15,15 @@ namespace Signoton
   struct OutputParameters
   {
     void
-    add_parameters(ParameterHandler &handler, const bool is_dynamic);
+    add_parameters(ParameterHandler &handler);
 
     std::string  directory        = "";
-    unsigned int fields_every     = 1;
     bool         nodal_stress     = true;
     unsigned int checkpoint_every = 0;
     std::string  probe_text       = "";
     std::string  probe_quantities = "displacement, velocity";
     std::string  surface_text     = "";
     std::string  transect_text    = "";
-    unsigned int transect_samples = 200;
-    bool         newton_history   = false;
-  };
-
-  /** The load history. */
-  struct LoadSteps
-  {
-    void
-    add_parameters(ParameterHandler &handler);
-
-    /** Check the entries against each other, and set what follows from
-     *  others. */
-    void
-    check(const SceneFile &file);
-
-    double       start             = 0.;
-    double       end               = 1.;
-    double       step_size         = 1.;
-    double       minimum_step_size = 0.;
-    double       maximum_step_size = 1e300;
-    std::string  times             = ""; ///< that steps meet
-    unsigned int easy_iterations   = 8;
-    double       growth            = 1.;
-  };
-
-  /** How dynamics goes through time. */
-  struct TimeIntegration
-  {
-    void
-    add_parameters(ParameterHandler &handler);
-
-    /** Check the entries against each other. */
-    void
-    check(const SceneFile &file) const;
-
-    bool
-    is_implicit() const
-    {
-      return scheme == "implicit";
-    }
-
-    /** Implicit steps do not grow beyond this, in s. */
-    double
-    longest_step() const
-    {
-      return maximum_step > 0. ? maximum_step : (end - start) / 50.;
-    }
-
-    std::string    scheme           = "explicit";
-    double         start            = 0.;
-    double         end              = 1.;
-    double         time_step        = 0.;
-    double         maximum_step     = 0.;
-    double         error_tolerance  = 1e-3;
-    double         spectral_radius  = 0.8;
-    double         safety           = 0.9;
-    ShockViscosity shock_viscosity  = {0.5, 12.};
-    bool           quiet_zones      = true;
-    std::string    times            = ""; ///< that steps meet
-    unsigned int   statistics_every = 1;
-    unsigned int   snapshots        = 20;
   };
 
   /** Points on a straight line, evenly spaced: `Probe lines`. */
@@ -138,30 +75,14 @@ namespace Signoton
      *  stresses in the components that the embedding has. */
     std::unique_ptr<SpaceTimeFunction<dim>> initial_strain, initial_stress;
     std::unique_ptr<SpaceTimeFunction<dim>> initial_velocity;
-    bool                                    is_dynamic     = false;
     bool                                    gravity_varies = false; ///< in time
-    LoadSteps                               load_steps;
-    TimeIntegration                         time_integration;
+    std::unique_ptr<Analysis<dim>>          analysis;
     TimesToMeet                             times_to_meet;
     LoadWatch<dim>                          load_watch;
     Newton::Parameters                      newton;
     LinearSolver::Parameters                linear_solver;
-    Refinement                              refinement;
-    WaveRefinement                          wave_refinement;
     OutputParameters                        output;
     std::string                             resolved_scene;
-
-    double
-    start_time() const
-    {
-      return is_dynamic ? time_integration.start : load_steps.start;
-    }
-
-    double
-    end_time() const
-    {
-      return is_dynamic ? time_integration.end : load_steps.end;
-    }
 
     std::unique_ptr<Space<dim>>     space;
     std::unique_ptr<Mechanics<dim>> mechanics;

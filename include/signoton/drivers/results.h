@@ -2,6 +2,7 @@
 #define signoton_drivers_results_h
 
 #include <signoton/drivers/run_output.h>
+#include <signoton/drivers/static_analysis.h>
 #include <signoton/solvers/newton.h>
 
 namespace Signoton
@@ -30,7 +31,7 @@ namespace Signoton
   class Results
   {
   public:
-    explicit Results(Model<dim> &model);
+    Results(Model<dim> &model, const StaticAnalysis<dim> &analysis);
 
     /** Open the output directory, and say what starts. */
     void
@@ -121,9 +122,10 @@ namespace Signoton
     CSVTable::Row
     statistics_row(const State &state, const StepRecord &record);
 
-    Model<dim>    &model;
-    RunOutput<dim> output;
-    unsigned int   accepted_steps = 0;
+    Model<dim>                &model;
+    const StaticAnalysis<dim> &analysis;
+    RunOutput<dim>             output;
+    unsigned int               accepted_steps = 0;
     /** Since the start, in J. */
     double external_work = 0., dissipation = 0., drift = 0.;
     double initial_energy = 0.; ///< stored, in J

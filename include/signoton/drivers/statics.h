@@ -30,7 +30,7 @@ namespace Signoton
   class Statics
   {
   public:
-    explicit Statics(Model<dim> &model);
+    Statics(Model<dim> &model, const StaticAnalysis<dim> &analysis);
 
     /** Start from the unloaded state, or from a checkpoint. */
     ExitStatus
@@ -84,12 +84,13 @@ namespace Signoton
     bool
     is_last_step() const;
 
-    Model<dim>             &model;
-    Loads<dim>              loads;
-    Supports<dim>           supports;
-    EquilibriumProblem<dim> problem;
-    Newton                  newton;
-    Results<dim>            results;
+    Model<dim>                &model;
+    const StaticAnalysis<dim> &analysis;
+    Loads<dim>                 loads;
+    Supports<dim>              supports;
+    EquilibriumProblem<dim>    problem;
+    Newton                     newton;
+    Results<dim>               results;
 
     StepRecord   record;
     NewtonResult last_result;

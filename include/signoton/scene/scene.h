@@ -55,6 +55,9 @@ namespace Signoton
     std::vector<std::string> notes;
 
   private:
+    void
+    choose_analysis();
+
     /** One file may switch between analyses: drop what only the others use,
      *  with a warning. */
     void
@@ -67,11 +70,8 @@ namespace Signoton
     void
     interpret();
 
-    /** The same for what only dynamics, or only statics, has. */
     void
     interpret_initial_state();
-    void
-    interpret_dynamics();
     void
     check_boundaries() const;
 
@@ -94,15 +94,17 @@ namespace Signoton
 
     ParameterHandler                          handler;
     std::vector<Rheology::MaterialParameters> materials;
-    int                                       dimension = dim;
-    std::string  embedding               = dim == 2 ? "plane strain" : "solid";
-    unsigned int degree                  = 1;
-    std::string  points_outside          = "nearest";
-    std::string  constants_text          = "";
-    std::string  gravity_text            = "";
-    std::string  reference_text          = "";
-    std::string  reference_velocity_text = "";
-    std::string initial_strain_text, initial_stress_text, initial_velocity_text;
+    /** Analyses that the file might have chosen. */
+    std::vector<std::unique_ptr<Analysis<dim>>> others;
+    int                                         dimension = dim;
+    std::string  embedding      = dim == 2 ? "plane strain" : "solid";
+    unsigned int degree         = 1;
+    std::string  points_outside = "nearest";
+    std::string  constants_text = "";
+    std::string  gravity_text   = "";
+    std::string  reference_text = "";
+
+    std::string initial_strain_text, initial_stress_text;
     Constants   constants;
   };
 
