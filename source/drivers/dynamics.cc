@@ -1,5 +1,7 @@
+#include <signoton/base/number.h>
 #include <signoton/drivers/dynamics.h>
 #include <signoton/drivers/reactions.h>
+#include <signoton/drivers/run_checks.h>
 #include <signoton/operators/lumped_mass.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -186,7 +188,7 @@ namespace Signoton
                             const double       kinetic,
                             const DynamicSums &own)
   {
-    const auto all   = sum<11>({{force_work,
+    const auto all   = sum<12>({{force_work,
                                  outer_work,
                                  damped,
                                  kinetic,
@@ -196,7 +198,8 @@ namespace Signoton
                                  own.viscous,
                                  own.shock,
                                  own.quiet_cells,
-                               SignalWatch::received() ? 1. : 0.}});
+                               SignalWatch::received() ? 1. : 0.,
+                                 own.failed}});
     is_interrupted   = all[10] > 0.;
     DynamicSums sums = own;
     sums.stored      = all[4];
@@ -205,6 +208,8 @@ namespace Signoton
     sums.viscous     = all[7];
     sums.shock       = all[8];
     sums.quiet_cells = all[9];
+    sums.failed      = all[11];
+    refuse_failure(sums);
     // Between the lines of statistics the material is not asked what it has
     // stored: the next answer makes up for that.
     receipt.time_stepping +=
@@ -219,6 +224,20 @@ namespace Signoton
     receipt.shock += sums.shock;
     receipt.note();
     return sums;
+  }
+
+  template <int dim>
+  void
+  Dynamics<dim>::refuse_failure(const DynamicSums &sums) const
+  {
+    if (!(sums.failed > 0.))
+      return;
+    refuse_trouble_of_loads(model);
+    throw UserError("t = " + number_text(time),
+                    in_words(model.mechanics->failure(), model.communicator),
+                    "a scheme that answers every strain",
+                    "smaller steps, or constants that differ less",
+                    ExitStatus::failure);
   }
 
   template <int dim>

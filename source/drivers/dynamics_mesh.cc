@@ -171,6 +171,8 @@ namespace Signoton
     for (unsigned int turn = 0; turn < 2; ++turn)
       {
         own = mechanics->dynamic_force(displacement, internal, true, -1.);
+        own.failed = sum<1>({{own.failed}})[0];
+        refuse_failure(own);
         mechanics->commit();
       }
     // the new points see the initial state anew

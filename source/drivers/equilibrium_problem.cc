@@ -121,7 +121,14 @@ namespace Signoton
     gradient = force;
     gradient -= load;
     supports.condense(gradient);
-    return Utilities::MPI::sum(own, model.communicator) - load * u;
+    // what nearly never happens costs no message of its own
+    const Failure<dim>    failure = model.mechanics->failure();
+    std::array<double, 2> sums{{own, failure.residual > 0. ? 1. : 0.}};
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        model.communicator,
+                        ArrayView<double>(sums.data(), sums.size()));
+    trouble = sums[1] > 0. ? in_words(failure, model.communicator) : "";
+    return sums[0] - load * u;
   }
 
   template <int dim>

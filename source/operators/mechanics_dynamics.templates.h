@@ -87,6 +87,7 @@ namespace Signoton
                   write_history<Law>(next, history.trial(batch, q));
                 else if (changed)
                   write_history<Law>(next, history.accepted(batch, q));
+                note_failure(law, batch, response);
                 const Number w = weight(cell, q);
                 if constexpr ((request & Rheology::energies) != 0)
                   {
@@ -151,6 +152,7 @@ namespace Signoton
     VectorType       &force)
   {
     DynamicSums sums;
+    worst_failure = {};
     if constexpr ((request & Rheology::energies) != 0)
       history.begin_trial();
     force = 0.;
@@ -167,6 +169,7 @@ namespace Signoton
       force += rest_force;
     if (shock_viscosity)
       begin_step(displacement);
+    sums.failed = worst_failure.residual > 0. ? 1. : 0.;
     return sums;
   }
 

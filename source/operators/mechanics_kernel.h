@@ -67,6 +67,11 @@ namespace Signoton
              const bool        linearize) override;
     typename Mechanics<dim>::ElementForces
     element_forces(const VectorType &displacement) override;
+    Failure<dim>
+    failure() const override
+    {
+      return worst_failure;
+    }
     double
     size_of_differences(const VectorType &displacement) override;
     bool
@@ -207,6 +212,13 @@ namespace Signoton
                const VectorType &displacement,
                VectorType       &force);
 
+    /** Remember where a law has failed, if that is worse than before. */
+    template <typename Law>
+    void
+    note_failure(const Law                        &law,
+                 const unsigned int                batch,
+                 const Rheology::Response<Number> &response);
+
     /** Everything a law knows, point by point, without integration. */
     void
     visit_points(const VectorType &displacement, const Visitor &visitor);
@@ -320,6 +332,7 @@ namespace Signoton
     std::vector<ShockMaterial> shock_materials;
 
     PointHistory             history;
+    Failure<dim>             worst_failure; ///< of the last sweep
     AlignedVector<Number>    tangents;
     std::vector<std::size_t> tangent_offset;
   };

@@ -256,7 +256,8 @@ namespace Signoton
   MechanicsKernel<Embedding, degree>::sweep(const VectorType &displacement,
                                             VectorType       &force)
   {
-    double sum = 0.;
+    double sum    = 0.;
+    worst_failure = {};
     history.begin_trial();
     data.template cell_loop<VectorType, VectorType>(
       [&](const auto &, auto &dst, const auto &src, const Range &range) {
@@ -313,6 +314,7 @@ namespace Signoton
                                          next,
                                          response);
             write_history<Law>(next, history.trial(batch, q));
+            note_failure(law, batch, response);
             if (shocked)
               {
                 const Tensor2<Number> change =
@@ -342,6 +344,22 @@ namespace Signoton
             sum += potential[i];
       }
     return sum;
+  }
+
+  template <typename Embedding, int degree>
+  template <typename Law>
+  inline DEAL_II_ALWAYS_INLINE void
+  MechanicsKernel<Embedding, degree>::note_failure(
+    const Law &,
+    const unsigned int                batch,
+    const Rheology::Response<Number> &response)
+  {
+    // the others do not fail
+    if constexpr (std::is_same_v<Law, Rheology::General>)
+      if (response.failure > worst_failure.residual)
+        worst_failure = {
+          response.failure,
+          data.get_cell_iterator(batch, response.failed_lane)->center()};
   }
 
   template <typename Embedding, int degree>

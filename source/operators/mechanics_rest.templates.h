@@ -114,11 +114,14 @@ namespace Signoton
                 const double size = lane(given, i).norm();
                 const double difference =
                   (lane(response.stress, i) - lane(given, i)).norm();
+                const bool is_answer =
+                  std::isfinite(difference) &&
+                  !(response.failure > 0. && response.failed_lane == i);
                 if (std::isfinite(size))
                   largest_given = std::max(largest_given, size);
-                if (!std::isfinite(difference) || difference > largest)
+                if (!is_answer || difference > largest)
                   {
-                    largest = std::isfinite(difference) ?
+                    largest = is_answer ?
                                 difference :
                                 std::numeric_limits<double>::infinity();
                     place   = points[i];

@@ -2,6 +2,7 @@
 #include <signoton/rheology/general.h>
 #include <signoton/tensors/lanes.h>
 
+#include <cmath>
 #include <limits>
 
 namespace Signoton::Rheology
@@ -20,6 +21,7 @@ namespace Signoton::Rheology
                   History<General, Number>       &trial,
                   Response<Number>               &response) const
   {
+    response.failure = 0.;
     for (unsigned int i = 0; i < n_lanes<Number>(); ++i)
       {
         for (unsigned int k = 0; k < tensors.size(); ++k)
@@ -30,11 +32,14 @@ namespace Signoton::Rheology
                                                     tensors.data(),
                                                     scalars.data(),
                                                     (request & tangent) != 0);
-        Tensor2<>            stress = from_mandel(step.stress);
-        double               W      = step.potential;
-        if (!step.converged)
-          W = stress[0][0] = std::numeric_limits<double>::quiet_NaN();
-        set_lane(response.stress, i, stress);
+        if (!step.converged && !(step.residual < response.failure))
+          {
+            response.failure     = std::isfinite(step.residual) ?
+                                     step.residual :
+                                     std::numeric_limits<double>::max();
+            response.failed_lane = i;
+          }
+        set_lane(response.stress, i, from_mandel(step.stress));
         set_lane(response.region, i, index(network->region()));
         for (unsigned int k = 0; k < tensors.size(); ++k)
           set_lane(trial.tensors[k],
@@ -45,7 +50,7 @@ namespace Signoton::Rheology
         if constexpr ((request & tangent) != 0)
           set_lane(response.tangent, i, from_mandel(step.tangent));
         if constexpr ((request & potential) != 0)
-          set_lane(response.potential, i, W);
+          set_lane(response.potential, i, step.potential);
         if constexpr ((request & (energies | dissipation)) != 0)
           {
             set_lane(response.dissipation, i, step.dissipated);

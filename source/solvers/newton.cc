@@ -84,7 +84,7 @@ namespace Signoton
           problem.has_potential() ?
             decrease || flat :
             gradient.l2_norm() <= (1. - 1e-4 * alpha) * norm_0;
-        if (std::isfinite(energy) && better)
+        if (problem.failure().empty() && std::isfinite(energy) && better)
           {
             if (trial > 0)
               energy = problem.evaluate(x, gradient, true);
@@ -144,9 +144,12 @@ namespace Signoton
       std::max(parameters.regularization, initial_regularization);
     VectorType gradient(x), rhs(x), dx(x);
     double     energy = problem.evaluate(x, gradient, true);
-    double     scale  = problem.force_scale(x);
-    double     norm = gradient.l2_norm(), previous_norm = norm;
+    result.reason     = problem.failure();
+    double scale      = problem.force_scale(x);
+    double norm = gradient.l2_norm(), previous_norm = norm;
     result.history.push_back({norm > 0. ? norm / scale : norm});
+    if (!result.reason.empty())
+      return result;
     for (unsigned int iteration = 0;; ++iteration)
       {
         if (!std::isfinite(norm))

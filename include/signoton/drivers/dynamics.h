@@ -91,6 +91,11 @@ namespace Signoton
                const double       kinetic,
                const DynamicSums &own);
 
+    /** Throw if a law had no answer in the last sweep.
+     *  @param sums over all ranks */
+    void
+    refuse_failure(const DynamicSums &sums) const;
+
     /** Sums over all ranks. */
     template <std::size_t n>
     std::array<double, n>

@@ -58,6 +58,12 @@ namespace Signoton
              VectorType       &gradient,
              const bool        linearize) override;
 
+    std::string
+    failure() const override
+    {
+      return trouble;
+    }
+
     bool
     has_potential() const override;
 
@@ -108,6 +114,7 @@ namespace Signoton
     LinearSolver                     linear_solver;
     std::vector<std::vector<double>> near_null_space;
     double                           largest_scale = 0.; ///< of forces so far
+    std::string                      trouble;            ///< see failure()
     /** Regularization that the matrix was assembled with, none if the point
      *  of linearization has moved since. */
     std::optional<double> assembled;

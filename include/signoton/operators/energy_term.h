@@ -2,6 +2,7 @@
 #define signoton_operators_energy_term_h
 
 #include <signoton/discretization/space.h>
+#include <signoton/operators/failure.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -29,6 +30,13 @@ namespace Signoton
      */
     virtual double
     evaluate(const VectorType &u, VectorType &force, const bool linearize) = 0;
+
+    /** Of the last evaluation, on this rank. */
+    virtual Failure<dim>
+    failure() const
+    {
+      return {};
+    }
 
     /** Add the product of the kept tangent and an increment that may be
      *  anything where the displacement is prescribed. */

@@ -44,6 +44,7 @@ namespace Signoton
     double viscous     = 0.; ///< of that, by dampers
     double shock       = 0.; ///< by the shock viscosity in the step, in J
     double quiet_cells = 0.; ///< that were skipped
+    double failed      = 0.; ///< 1 if a law had no answer, see failure()
   };
 
   /** Averages over a cell, in the order of the entries xx, yy, zz, xy, xz, yz.

@@ -23,8 +23,8 @@ namespace Signoton::Rheology
    * the functions of the closed laws, but tells only at run time what it
    * remembers, and depends on the time step if there are dampers.
    *
-   * A point whose solve fails gets a stress that is not a number: the Newton
-   * iteration of the body then fails, and its step is cut.
+   * A point whose solve fails says so in Response::failure, beside a stress that
+   * is of no use.
    */
   class General
   {

@@ -33,6 +33,11 @@ namespace Signoton::Rheology
     Number          viscous_dissipation; ///< the part of it in dampers
     Tensor2<Number> contact_strain;      ///< strain of the rigid contact
     Tensor2<Number> plastic_strain;      ///< strain of the plastic hinge
+    /** The relative residual, the largest of all lanes, at which a local solver
+     *  has given up, with its lane; zero if all is well. Closed forms do not
+     *  fail, and leave it. */
+    double       failure     = 0.;
+    unsigned int failed_lane = 0;
   };
 
   /** History of a law with `n_tensors` tensors and `n_scalars` scalars. */

@@ -27,6 +27,14 @@ namespace Signoton
              VectorType       &gradient,
              const bool        linearize) = 0;
 
+    /** Why there is no gradient at the point last evaluated; empty if there is
+     *  one. */
+    virtual std::string
+    failure() const
+    {
+      return "";
+    }
+
     /** Whether evaluate() returns an energy whose gradient it is. */
     virtual bool
     has_potential() const
