@@ -106,16 +106,23 @@ namespace Signoton
   }
 
   bool
-  depends_on_time(const std::string &expression)
+  depends_on(const std::string &expression, const char variable)
   {
     const auto in_name = [](const char c) {
       return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
     };
     for (std::size_t i = 0; i < expression.size(); ++i)
-      if (expression[i] == 't' && (i == 0 || !in_name(expression[i - 1])) &&
+      if (expression[i] == variable &&
+          (i == 0 || !in_name(expression[i - 1])) &&
           (i + 1 == expression.size() || !in_name(expression[i + 1])))
         return true;
     return false;
+  }
+
+  bool
+  depends_on_time(const std::string &expression)
+  {
+    return depends_on(expression, 't');
   }
 
   std::vector<std::string>
@@ -217,6 +224,19 @@ namespace Signoton
                        [](const Component &c) {
                          return c.table || depends_on_time(c.text);
                        });
+  }
+
+  template <int dim>
+  bool
+  SpaceTimeFunction<dim>::is_uniform() const
+  {
+    return std::none_of(components.begin(),
+                        components.end(),
+                        [](const Component &c) {
+                          return !c.table && (depends_on(c.text, 'x') ||
+                                              depends_on(c.text, 'y') ||
+                                              depends_on(c.text, 'z'));
+                        });
   }
 
   template <int dim>

@@ -11,6 +11,7 @@ namespace Signoton
   void
   Loads<dim>::reinit()
   {
+    body_force.reinit(*model.space, model.materials, model.gravity.get());
     surface_load.reinit(*model.space, model.conditions);
     point_forces.reinit(*model.space,
                         model.point_forces,
@@ -21,7 +22,7 @@ namespace Signoton
   bool
   Loads<dim>::vary() const
   {
-    return model.gravity_varies ||
+    return (model.gravity && model.gravity->varies()) ||
            std::any_of(model.point_forces.begin(),
                        model.point_forces.end(),
                        [](const auto &p) { return p.varies; }) ||
@@ -34,8 +35,7 @@ namespace Signoton
   void
   Loads<dim>::add(const LoadKind kind, VectorType &force) const
   {
-    if (model.gravity && kind == load_kind(model.gravity_varies))
-      add_body_force(*model.space, model.materials, *model.gravity, force);
+    body_force.add(kind, force);
     surface_load.add(kind, force);
     point_forces.add(kind, force);
     force.compress(VectorOperation::add);

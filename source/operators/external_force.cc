@@ -8,22 +8,63 @@ namespace Signoton
 {
   template <int dim>
   void
-  add_body_force(const Space<dim>                      &space,
-                 const std::vector<Rheology::Material> &materials,
-                 const Function<dim>                   &gravity,
-                 VectorType                            &force)
+  BodyForce<dim>::reinit(const Space<dim>                      &new_space,
+                         const std::vector<Rheology::Material> &new_materials,
+                         const SpaceTimeFunction<dim>          *new_gravity)
+  {
+    space     = &new_space;
+    materials = &new_materials;
+    gravity   = new_gravity;
+    of_unit.clear();
+    if (gravity == nullptr || !gravity->varies() || !gravity->is_uniform())
+      return;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        of_unit.push_back(space->make_relevant_vector());
+        integrate([d](
+                    const Point<dim> &) { return Point<dim>::unit_vector(d); },
+                  of_unit.back());
+        of_unit.back().compress(VectorOperation::add);
+      }
+  }
+
+  template <int dim>
+  void
+  BodyForce<dim>::add(const LoadKind kind, VectorType &force) const
+  {
+    if (gravity == nullptr || kind != load_kind(gravity->varies()))
+      return;
+    const auto acceleration = [&](const Point<dim> &p) {
+      Tensor<1, dim> g;
+      for (unsigned int d = 0; d < dim; ++d)
+        g[d] = gravity->value(p, d);
+      return g;
+    };
+    if (of_unit.empty())
+      return integrate(acceleration, force);
+    const Tensor<1, dim> g = acceleration(Point<dim>());
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int i = 0; i < force.locally_owned_size(); ++i)
+        force.local_element(i) += g[d] * of_unit[d].local_element(i);
+  }
+
+  template <int dim>
+  template <typename Acceleration>
+  void
+  BodyForce<dim>::integrate(const Acceleration &acceleration,
+                            VectorType         &force) const
   {
     boost::container::flat_map<types::material_id, double> density;
-    for (const auto &material : materials)
+    for (const auto &material : *materials)
       density[material.id] = material.density;
-    FEValues<dim>                        values(space.mapping,
-                         space.fe,
-                         space.quadrature,
+    FEValues<dim>  values(space->mapping,
+                         space->fe,
+                         space->quadrature,
                          update_values | update_quadrature_points |
                            update_JxW_values);
-    Vector<double>                       cell_force(space.fe.n_dofs_per_cell());
+    Vector<double> cell_force(space->fe.n_dofs_per_cell());
     std::vector<types::global_dof_index> dofs(cell_force.size());
-    for (const auto &cell : space.dof_handler.active_cell_iterators())
+    for (const auto &cell : space->dof_handler.active_cell_iterators())
       {
         if (!cell->is_locally_owned() || !(density[cell->material_id()] > 0.))
           continue;
@@ -33,18 +74,16 @@ namespace Signoton
           {
             const auto  &p = values.quadrature_point(q);
             const double mass =
-              density[cell->material_id()] * space.weight(p) * values.JxW(q);
-            Tensor<1, dim> g;
-            for (unsigned int d = 0; d < dim; ++d)
-              g[d] = gravity.value(p, d);
+              density[cell->material_id()] * space->weight(p) * values.JxW(q);
+            const Tensor<1, dim> g = acceleration(p);
             for (unsigned int i = 0; i < cell_force.size(); ++i)
               cell_force[i] += mass * values.shape_value(i, q) *
-                               g[space.fe.system_to_component_index(i).first];
+                               g[space->fe.system_to_component_index(i).first];
           }
         cell->get_dof_indices(dofs);
-        space.mesh_constraints.distribute_local_to_global(cell_force,
-                                                          dofs,
-                                                          force);
+        space->mesh_constraints.distribute_local_to_global(cell_force,
+                                                           dofs,
+                                                           force);
       }
   }
 
@@ -135,14 +174,8 @@ namespace Signoton
       }
   }
 
-#define INSTANTIATE(dim)                                                     \
-  template void add_body_force<dim>(const Space<dim> &,                      \
-                                    const std::vector<Rheology::Material> &, \
-                                    const Function<dim> &,                   \
-                                    VectorType &);                           \
-  template class SurfaceLoad<dim>;
-
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template class BodyForce<2>;
+  template class BodyForce<3>;
+  template class SurfaceLoad<2>;
+  template class SurfaceLoad<3>;
 } // namespace Signoton

@@ -266,7 +266,6 @@ namespace Signoton
       model.reference =
         vector_function(reference_text,
                         file.where({"Reference solution"}, "Displacement"));
-    model.gravity_varies = model.gravity && model.gravity->varies();
     if (const std::string weightless = check_weight(model, gravity_text);
         !weightless.empty())
       warnings.push_back(weightless);

@@ -53,6 +53,10 @@ namespace Signoton
     bool
     varies() const;
 
+    /** Whether it is the same at all places. */
+    bool
+    is_uniform() const;
+
     /** The last time of its tables; nothing if there is none. */
     std::optional<double>
     end_of_tables() const;
@@ -93,7 +97,11 @@ namespace Signoton
   refuse_trouble(const MPI_Comm                           &communicator,
                  const std::vector<const Function<dim> *> &functions);
 
-  /** Whether the variable `t` occurs in an expression. */
+  /** Whether a variable, of one letter, occurs in an expression. */
+  bool
+  depends_on(const std::string &expression, const char variable);
+
+  /** Whether the variable `t` does. */
   bool
   depends_on_time(const std::string &expression);
 

@@ -35,6 +35,7 @@ namespace Signoton
 
   private:
     const Model<dim> &model;
+    BodyForce<dim>    body_force;
     SurfaceLoad<dim>  surface_load;
     PointForces<dim>  point_forces;
   };

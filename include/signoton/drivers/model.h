@@ -75,7 +75,6 @@ namespace Signoton
      *  stresses in the components that the embedding has. */
     std::unique_ptr<SpaceTimeFunction<dim>> initial_strain, initial_stress;
     std::unique_ptr<SpaceTimeFunction<dim>> initial_velocity;
-    bool                                    gravity_varies = false; ///< in time
     std::unique_ptr<Analysis<dim>>          analysis;
     TimesToMeet                             times_to_meet;
     LoadWatch<dim>                          load_watch;

@@ -19,15 +19,39 @@ namespace Signoton
     return varies ? LoadKind::varying : LoadKind::steady;
   }
 
-  /** Add $\int\rho g\cdot v$ of all materials with a density, at the time last
-   *  set, to @p force in N, as the mesh bears it: see EnergyTerm. The caller
-   *  compresses. */
+  /**
+   * The weight of all materials with a density. What is the same at all places
+   * but varies in time, as in a quake, is integrated once for each direction.
+   */
   template <int dim>
-  void
-  add_body_force(const Space<dim>                      &space,
-                 const std::vector<Rheology::Material> &materials,
-                 const Function<dim>                   &gravity,
-                 VectorType                            &force);
+  class BodyForce
+  {
+  public:
+    /** Adapt to the current mesh. All arguments must outlive the object.
+     *  @param gravity nullptr for none */
+    void
+    reinit(const Space<dim>                      &space,
+           const std::vector<Rheology::Material> &materials,
+           const SpaceTimeFunction<dim>          *gravity);
+
+    /** Add $\int\rho g\cdot v$, if it is of a kind, at the time last set to
+     *  @p force in N, as the mesh bears it: see EnergyTerm. The caller
+     *  compresses. */
+    void
+    add(const LoadKind kind, VectorType &force) const;
+
+  private:
+    /** Add the force of an acceleration. */
+    template <typename Acceleration>
+    void
+    integrate(const Acceleration &acceleration, VectorType &force) const;
+
+    const Space<dim>                      *space     = nullptr;
+    const std::vector<Rheology::Material> *materials = nullptr;
+    const SpaceTimeFunction<dim>          *gravity   = nullptr;
+    /** Forces of an acceleration of one along each axis, if they serve. */
+    std::vector<VectorType> of_unit;
+  };
 
   /**
    * Tractions and pressures on the boundary. The geometry of the loaded faces
@@ -44,7 +68,7 @@ namespace Signoton
     reinit(const Space<dim> &space, const BoundaryConditions<dim> &conditions);
 
     /** Add $\int t\cdot v$ of the loads of a kind at the time last set to
-     *  @p force in N, as add_body_force() does. */
+     *  @p force in N, as BodyForce does. */
     void
     add(const LoadKind kind, VectorType &force) const;
 
