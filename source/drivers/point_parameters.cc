@@ -151,20 +151,36 @@ namespace Signoton
   }
 
   void
+  PointDriver::refuse(const std::string &key,
+                      const std::string &found,
+                      const std::string &expected,
+                      const std::string &hint) const
+  {
+    throw UserError(file.where({"Program"}, key), found, expected, hint);
+  }
+
+  void
   PointDriver::interpret()
   {
-    const SceneFile::Path path   = {"Program"};
-    const auto            refuse = [&](const std::string &key,
-                            const std::string &found,
-                            const std::string &expected,
-                            const std::string &hint) {
-      throw UserError(file.where(path, key), found, expected, hint);
-    };
     material = constants->make(file);
     for (unsigned int c = 0; c < 6; ++c)
       components[c].factor = c < 3 ? 1. : std::sqrt(2.);
+    interpret_components();
+    interpret_kind();
+    interpret_times();
+    choose_axes();
+    by_strain = stress_is_given() == std::array<bool, 6>{};
+    if (by_strain)
+      Rheology::require_stress_from_strain(material->scheme, material->where);
+    else
+      Rheology::require_resistance(material->scheme, material->where);
+    law = std::make_unique<PointLaw>(*material);
+    law->set_control(stress_is_given());
+  }
 
-    const bool by_component = kind == "components";
+  void
+  PointDriver::interpret_components()
+  {
     for (unsigned int c = 0; c < 6; ++c)
       for (const bool is_stress : {false, true})
         {
@@ -175,7 +191,7 @@ namespace Signoton
             is_stress ? target.stress_text : target.strain_text;
           if (text.empty())
             continue;
-          if (!by_component)
+          if (kind != "components")
             refuse(key,
                    "'" + text + "' with Kind '" + kind + "'",
                    "Strain or Stress, without a component",
@@ -186,28 +202,39 @@ namespace Signoton
                      std::string(component_names[c]),
                    "one of them",
                    "the other is what the point answers");
-          give(mandel_index[c], text, is_stress, file.where(path, key));
+          give(mandel_index[c], text, is_stress, file.where({"Program"}, key));
         }
-    if (by_component == (!strain_text.empty() || !stress_text.empty()) ||
-        (!strain_text.empty() && !stress_text.empty()))
+  }
+
+  void
+  PointDriver::interpret_kind()
+  {
+    const bool by_component = kind == "components",
+               is_shear     = kind == "simple shear",
+               is_uniaxial  = kind == "uniaxial",
+               is_triaxial  = kind == "triaxial",
+               both         = !strain_text.empty() && !stress_text.empty(),
+               any          = !strain_text.empty() || !stress_text.empty();
+    if (by_component == any || both)
       refuse(strain_text.empty() ? "Stress" : "Strain",
              by_component ? "Strain or Stress with Kind 'components'" :
-             strain_text.empty() && stress_text.empty() ?
-                            "neither Strain nor Stress" :
+             !any         ? "neither Strain nor Stress" :
                             "both Strain and Stress",
              by_component ? "keys with a component, 'Strain xx'" :
                             "one of them",
              "for instance 'set Strain = 0: 0, 1: -1e-3, 2: 0'");
-    const bool is_shear = kind == "simple shear",
-               confined = kind == "triaxial" || is_shear;
-    if (file.has(path, "Confining pressure") && !confined)
+    if (file.has({"Program"}, "Confining pressure") && !is_triaxial &&
+        !is_shear)
       refuse("Confining pressure",
              "a value with Kind '" + kind + "'",
              "Kind triaxial or simple shear",
              "remove it, it would have no effect");
+    if (by_component)
+      return;
     const bool        by_stress = strain_text.empty();
     const std::string text      = by_stress ? stress_text : strain_text;
-    const std::string place = file.where(path, by_stress ? "Stress" : "Strain");
+    const std::string place =
+      file.where({"Program"}, by_stress ? "Stress" : "Strain");
     std::ostringstream side;
     side.precision(17);
     side << -confining_pressure;
@@ -217,30 +244,27 @@ namespace Signoton
           give(c, text, by_stress, place);
           components[c].factor = by_stress ? 1. : 1. / 3.;
         }
-    else if (!by_component)
+    else
       give(is_shear ? mandel_index[3] : 0, text, by_stress, place);
-    if (kind == "uniaxial" || kind == "triaxial")
-      for (unsigned int c = 1; c < (kind == "uniaxial" ? 6u : 3u); ++c)
+    // what else the apparatus prescribes
+    if (is_uniaxial || is_triaxial)
+      for (unsigned int c = 1; c < (is_uniaxial ? 6u : 3u); ++c)
         give(c, side.str(), true, place);
     if (is_shear)
       give(1, side.str(), true, place);
+  }
 
-    interpret_times();
-    std::string driven = is_shear ? "xy" : "xx";
-    for (unsigned int c = 6; by_component && c-- > 0;)
+  void
+  PointDriver::choose_axes()
+  {
+    std::string driven = kind == "simple shear" ? "xy" : "xx";
+    for (unsigned int c = 6; kind == "components" && c-- > 0;)
       if (components[mandel_index[c]].program)
         driven = component_names[c];
     if (horizontal.empty())
       horizontal = kind == "hydrostatic" ? "volume strain" : "strain " + driven;
     if (vertical.empty())
       vertical = kind == "hydrostatic" ? "mean stress" : "stress " + driven;
-    by_strain = stress_is_given() == std::array<bool, 6>{};
-    if (by_strain)
-      Rheology::require_stress_from_strain(material->scheme, material->where);
-    else
-      Rheology::require_resistance(material->scheme, material->where);
-    law = std::make_unique<PointLaw>(*material);
-    law->set_control(stress_is_given());
   }
 
   void

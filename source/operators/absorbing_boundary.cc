@@ -25,6 +25,36 @@ namespace Signoton
                         (moduli.bulk + 4. / 3. * moduli.shear)),
               std::sqrt(material.density * moduli.shear)};
     }
+
+    /** Add the dashpots on a face to the columns of the matrix of a cell. */
+    template <int dim>
+    void
+    add_face(const FEFaceValues<dim>                          &values,
+             const Space<dim>                                 &space,
+             const std::vector<std::array<unsigned int, dim>> &nodes_of,
+             const Impedance                                  &Z,
+             std::vector<Vector<double>>                      &of_cell)
+    {
+      for (const unsigned int q : values.quadrature_point_indices())
+        {
+          const Tensor<1, dim> normal = values.normal_vector(q);
+          const double         area =
+            values.JxW(q) * space.weight(values.quadrature_point(q));
+          for (const auto &node : nodes_of)
+            {
+              // one at its node, zero at the others
+              const double share = values.shape_value(node[0], q);
+              if (std::abs(share) < 1e-8)
+                continue;
+              for (unsigned int a = 0; a < dim; ++a)
+                for (unsigned int b = 0; b < dim; ++b)
+                  of_cell[b][node[a]] +=
+                    area * share *
+                    ((Z.normal - Z.tangential) * normal[a] * normal[b] +
+                     (a == b ? Z.tangential : 0.));
+            }
+        }
+    }
   } // namespace
 
   template <int dim>
@@ -36,36 +66,46 @@ namespace Signoton
     const Supports<dim>                   &supports)
   {
     nodes.clear();
+    if (std::any_of(conditions.begin(), conditions.end(), [](const auto &c) {
+          return c.absorbs();
+        }))
+      collect(space, integrate(space, materials, conditions), supports);
+  }
+
+  template <int dim>
+  std::vector<VectorType>
+  AbsorbingBoundary<dim>::integrate(
+    const Space<dim>                      &space,
+    const std::vector<Rheology::Material> &materials,
+    const BoundaryConditions<dim>         &conditions)
+  {
     boost::container::flat_map<types::boundary_id,
                                const BoundaryCondition<dim> *>
       absorbing;
     for (const auto &condition : conditions)
       if (condition.absorbs())
         absorbing[condition.id] = &condition;
-    if (absorbing.empty())
-      return;
-
     boost::container::flat_map<types::material_id, std::array<Impedance, 2>>
       impedances; // of closed and of loosened pores
     for (const auto &material : materials)
       impedances[material.id] = {
         {impedance(material, false), impedance(material, true)}};
 
-    // column d of the matrix of each node, in the form of a vector of unknowns
-    std::vector<VectorType>     columns(dim, space.make_relevant_vector());
-    const auto                  nodes_of = nodes_of_cell<dim>(space.fe);
-    FEFaceValues<dim>           values(space.mapping,
+    std::vector<VectorType> columns(dim, space.make_relevant_vector());
+    const auto              nodes_of = nodes_of_cell<dim>(space.fe);
+    // lumped: points at the nodes
+    FEFaceValues<dim>                    values(space.mapping,
                              space.fe,
                              QGaussLobatto<dim - 1>(space.degree + 1),
                              update_values | update_JxW_values |
                                update_quadrature_points |
                                update_normal_vectors);
-    const unsigned int          n = space.fe.n_dofs_per_cell();
-    std::vector<Vector<double>> cell_columns(dim, Vector<double>(n));
+    const unsigned int                   n = space.fe.n_dofs_per_cell();
+    std::vector<Vector<double>>          of_cell(dim, Vector<double>(n));
     std::vector<types::global_dof_index> dofs(n);
     for (const auto &cell : space.dof_handler.active_cell_iterators())
       {
-        if (!cell->is_locally_owned())
+        if (!cell->is_locally_owned() || !cell->at_boundary())
           continue;
         for (const auto f : cell->face_indices())
           {
@@ -74,47 +114,42 @@ namespace Signoton
             const auto found = absorbing.find(cell->face(f)->boundary_id());
             if (found == absorbing.end())
               continue;
-            const Impedance Z =
-              impedances[cell->material_id()]
-                        [found->second->absorbs_loosened() ? 1 : 0];
-            for (auto &column : cell_columns)
-              column = 0.;
             values.reinit(cell, f);
-            for (const unsigned int q : values.quadrature_point_indices())
-              {
-                const Tensor<1, dim> normal = values.normal_vector(q);
-                const double         area =
-                  values.JxW(q) * space.weight(values.quadrature_point(q));
-                for (const auto &node : nodes_of)
-                  {
-                    // lumped: one at its node, zero at the others
-                    const double share = values.shape_value(node[0], q);
-                    if (std::abs(share) < 1e-8)
-                      continue;
-                    for (unsigned int a = 0; a < dim; ++a)
-                      for (unsigned int b = 0; b < dim; ++b)
-                        cell_columns[b][node[a]] +=
-                          area * share *
-                          ((Z.normal - Z.tangential) * normal[a] * normal[b] +
-                           (a == b ? Z.tangential : 0.));
-                  }
-              }
+            add_face<dim>(values,
+                          space,
+                          nodes_of,
+                          impedances[cell->material_id()]
+                                    [found->second->absorbs_loosened() ? 1 : 0],
+                          of_cell);
             cell->get_dof_indices(dofs);
             for (unsigned int d = 0; d < dim; ++d)
-              space.mesh_constraints.distribute_local_to_global(cell_columns[d],
-                                                                dofs,
-                                                                columns[d]);
+              {
+                space.mesh_constraints.distribute_local_to_global(of_cell[d],
+                                                                  dofs,
+                                                                  columns[d]);
+                of_cell[d] = 0.;
+              }
           }
       }
     for (auto &column : columns)
       column.compress(VectorOperation::add);
+    return columns;
+  }
 
+  template <int dim>
+  void
+  AbsorbingBoundary<dim>::collect(const Space<dim>              &space,
+                                  const std::vector<VectorType> &columns,
+                                  const Supports<dim>           &supports)
+  {
     boost::container::flat_map<unsigned int, typename Supports<dim>::Node>
       supported;
     for (const auto &node : supports.nodes())
       supported[node.index[0]] = node;
-    const IndexSet   &owned = space.dof_handler.locally_owned_dofs();
+    const auto        nodes_of = nodes_of_cell<dim>(space.fe);
+    const IndexSet   &owned    = space.dof_handler.locally_owned_dofs();
     std::vector<bool> done(owned.n_elements(), false);
+    std::vector<types::global_dof_index> dofs(space.fe.n_dofs_per_cell());
     for (const auto &cell : space.dof_handler.active_cell_iterators())
       {
         if (cell->is_artificial())

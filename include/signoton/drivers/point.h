@@ -54,8 +54,21 @@ namespace Signoton
 
     void
     add_parameters();
+    [[noreturn]] void
+    refuse(const std::string &key,
+           const std::string &found,
+           const std::string &expected,
+           const std::string &hint) const;
     void
     interpret();
+    /** What the file gives component by component, or by the kind of test. */
+    void
+    interpret_components();
+    void
+    interpret_kind();
+    /** Of the diagram, unless the file names them. */
+    void
+    choose_axes();
     /** The end, and the times that steps have to meet. */
     void
     interpret_times();

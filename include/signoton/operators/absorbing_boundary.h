@@ -56,6 +56,19 @@ namespace Signoton
     }
 
   private:
+    /** The columns of the matrices of all nodes, each in the form of a vector of
+     *  unknowns. */
+    static std::vector<VectorType>
+    integrate(const Space<dim>                      &space,
+              const std::vector<Rheology::Material> &materials,
+              const BoundaryConditions<dim>         &conditions);
+
+    /** The own nodes with dashpots, each once. */
+    void
+    collect(const Space<dim>              &space,
+            const std::vector<VectorType> &columns,
+            const Supports<dim>           &supports);
+
     std::vector<Node> nodes;
   };
 } // namespace Signoton
