@@ -1,7 +1,8 @@
 #ifndef signoton_rheology_conditional_plasticity_h
 #define signoton_rheology_conditional_plasticity_h
 
-#include <signoton/rheology/law.h>
+#include <signoton/rheology/spring_and_projection.h>
+#include <signoton/tensors/lanes.h>
 
 namespace Signoton::Rheology
 {
