@@ -122,7 +122,10 @@ namespace Signoton
     gradient -= load;
     supports.condense(gradient);
     // what nearly never happens costs no message of its own
-    const Failure<dim>    failure = model.mechanics->failure();
+    Failure<dim> failure = model.mechanics->failure();
+    for (const auto *term : others)
+      if (term->failure().residual > failure.residual)
+        failure = term->failure();
     std::array<double, 2> sums{{own, failure.residual > 0. ? 1. : 0.}};
     Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                         model.communicator,
