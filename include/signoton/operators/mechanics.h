@@ -172,9 +172,9 @@ namespace Signoton
     virtual double
     strain_by_stress(const VectorType &displacement) = 0;
 
-    /** The part of the internal force that the binders in parallel with contacts bear:
-     *  the force of $B:x$ with the strain x of what they bridge, in the accepted
-     *  state. */
+    /** The part of the internal force that the binders in parallel with contacts
+     *  bear: that of $B:x$ with the strain x of what they bridge, in the
+     *  accepted state. */
     virtual void
     binder_force(const VectorType &displacement, VectorType &force) = 0;
 
