@@ -1,7 +1,7 @@
 #include <signoton/discretization/polynomial_manifold.h>
 
-#include <deal.II/base/table.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/table.h>
 #include <deal.II/numerics/rtree.h>
 
 #include <boost/container/small_vector.hpp>
